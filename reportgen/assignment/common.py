@@ -176,7 +176,9 @@ class Kind:
     section of that name, None for a machine without one; `checks` examine several values together. `labels` exists for
     a kind that adds positions to the evenly spaced ones. A kind that is a single instant of a motion has no positions
     and no chosen drawn length. `part` is the prefix of the ids of a kind that can be a part of a coursework; "" for
-    other kinds. `positions` and `drawing` are the sections of these names, in which a kind may have its own defaults.
+    other kinds. `lengths` returns the lengths that such a part can give the machine, by their letters; None if it gives
+    none. `lengths_of_parts` are the keys whose lengths parts can give a machine. `positions` and `drawing` are the
+    sections of these names, in which a kind may have its own defaults.
     """
 
     name: str
@@ -188,6 +190,8 @@ class Kind:
     indicator_optional: bool = False
     has_positions: bool = True
     part: str = ""
+    lengths: Callable[[Assignment], Mapping[str, SolvedLength]] | None = None
+    lengths_of_parts: tuple[str, ...] = ()
     positions: type[Positions] = Positions
     drawing: type[Drawing] = Drawing
     topics: tuple[str, ...] = ()
@@ -234,6 +238,8 @@ class Assignment:
     turns: int = 1
     names: Labels | None = None
     parts: tuple[AssignedPart, ...] = ()
+    lengths: tuple[LengthOfPart, ...] = ()
+    """Lengths of a machine that parts of its coursework give."""
     is_part: bool = False
     """True if it is itself a part of a coursework, whose common sections are in the coursework's file."""
 
@@ -276,6 +282,10 @@ class Assignment:
             raise UnknownNameError(unknown("no_position", named, self.labels, self.language))
         return position
 
+    def key_of_part(self, key: str) -> str:
+        """Return a key of the parameters if a part of the coursework gives its length; else ""."""
+        return key if any(length.key == key for length in self.lengths) else ""
+
     def with_positions(self, count: int) -> Assignment:
         """Return the same assignment with `count` positions per turn; worked positions beyond the new cycle are
         dropped.
@@ -307,6 +317,23 @@ class Assignment:
     def with_listing(self) -> Assignment:
         """Return the same assignment with the program of its closed formulas in the report."""
         return replace(self, report=self.report.model_copy(update={"listing": True}))
+
+
+@dataclass(frozen=True, slots=True)
+class SolvedLength:
+    """A length that a part finds: its id in the part, and the length as the part prints it, with its unit."""
+
+    id: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class LengthOfPart:
+    """A length that a machine takes from a part: the machine's key, the part by its index, the id in the part."""
+
+    key: str
+    part: int
+    id: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -345,11 +372,15 @@ class _Taken(Part):
 
 
 class NamedPart(Part):
-    """A part as the file names it: by `file`, or with its sections in place."""
+    """A part as the file names it: by `file`, or with its sections in place.
+
+    It takes data `from` the machine, and `gives` lengths to keys of the machine, by their letters in the part.
+    """
 
     file: OneLine | None = None
     title: OneLine | None = None
     from_: dict[str, _Taken] = Field(default={}, alias="from")
+    gives: dict[str, OneLine] = {}
     kind: OneLine | None = None
     variant: OneLine | None = None
     report: dict[str, Any] | None = None

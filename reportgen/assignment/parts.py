@@ -15,6 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, NamedPart, TakenDatum
+from reportgen.assignment.fields import FIND
 from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
 from reportgen.base.kinds import kinds
@@ -22,7 +23,7 @@ from reportgen.base.units import NUMBER, QuantityFault, read_ratio
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
 from reportgen.base.yaml_values import at, put, without
 
-ABOUT = ("file", "title", "from")
+ABOUT = ("file", "title", "from", "gives")
 """The keys of a named part that are not those of an assignment."""
 UNUSED = ("report",)
 """Section of a part that the coursework's section replaces."""
@@ -54,14 +55,10 @@ def read(
         if source.top is not None and not own:
             factors = {key: wanted.times.si if wanted.times else None for key, wanted in part.from_.items()}
             source, own = _completed(source, top, index, taken, factors, find)
-        own = own or list(_no_part(source, find))
+        own = own or list(no_part(source, find))
         assignment, wrong = (None, own) if own else assess(source, Path(source.file))
         if assignment is None:
-            # The faults of a part in place belong to this file, those of a part in a separate file to that one.
-            faults += [
-                replace(fault, where=(PARTS, index, *fault.where)) if fault.location.file == str(path) else fault
-                for fault in wrong
-            ]
+            faults += [of_part(fault, index, path) for fault in wrong]
             continue
         head = find(assignment.kind).part
         numbers[head] += 1
@@ -69,16 +66,28 @@ def read(
     return parts, faults
 
 
-def in_coursework(source: Source, path: Path, whole: Path, find: Callable[[str], Kind]) -> Source:
+def of_part(fault: Fault, index: int, path: Path) -> Fault:
+    """Return a fault of a part with its place in the file `path` of the coursework.
+
+    The faults of a part in place belong to this file, those of a part in a separate file to that one.
+    """
+    in_place = fault.location.file == str(path) and fault.where[:1] != (PARTS,)
+    return replace(fault, where=(PARTS, index, *fault.where)) if in_place else fault
+
+
+def in_coursework(
+    source: Source, path: Path, whole: Path, find: Callable[[str], Kind], solve: Callable[[MappingNode], MappingNode]
+) -> Source:
     """Return the nodes of a part's file with the values taken from the machine of the coursework `whole`, and faults.
 
-    If the coursework does not name the file, the nodes are unchanged.
+    `solve` puts the lengths that parts give into the machine's nodes. If the coursework does not name the file, the
+    nodes are unchanged.
     """
     top = read_source(whole).top
     if not isinstance(top, MappingNode) or source.top is None:
         return source
     index = next((index for index, file in _named(top, whole) if file == path), None)
-    return source if index is None else taking(source, top, index, find)
+    return source if index is None else taking(source, solve(top), index, find)
 
 
 def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], Kind]) -> Source:
@@ -97,7 +106,7 @@ def taking(source: Source, top: MappingNode, index: int, find: Callable[[str], K
     return replace(completed, faults=(*source.faults, *faults))
 
 
-def _no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
+def no_part(source: Source, find: Callable[[str], Kind]) -> Iterator[Fault]:
     """Yield a fault for a kind that cannot be a part, such as a machine, which could itself have parts."""
     name = at(source.top, ("kind",))
     if isinstance(name, Scalar) and name.text in kinds() and not find(name.text).part:
@@ -222,6 +231,9 @@ def _with_taken(
             known = ", ".join(_quantities(top))
             own_place = ("from", datum.key, "of")
             faults.append(Fault("no-datum", wanted.location, {"text": datum.of, "known": known}, own_place))
+        elif value.text == FIND:
+            own_place = ("from", datum.key, "of")
+            faults.append(Fault("datum-not-yet-found", wanted.location, {"text": datum.of}, own_place))
         elif own is not None:
             faults.append(Fault("datum-twice", own.location, {"key": datum.key}, ("parameters", datum.key)))
         elif node is not None:

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, TypeAdapter, ValidationError
 from pydantic_core import ErrorDetails
 
-from reportgen.assignment import parts
+from reportgen.assignment import lengths_of_parts, parts
 from reportgen.assignment.checks import instants, school_of, worked_positions
 from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
@@ -57,6 +57,8 @@ def assess(
     top, faults = _top(source)
     if top is None:
         return None, faults
+    solution = _with_lengths(top, path, kinds, find)
+    top = solution.top
     raw: dict[str, Any] = plain(top)
     name = raw.get("kind")
     kind = find(name) if isinstance(name, str) and name in kinds else None
@@ -72,11 +74,13 @@ def assess(
     refused = {fault.location.line for fault in faults if fault.code in {"alias", "tag", "tab"}}
     placed = [_placed(finding, top) for finding in _without_renamed(findings)]
     faults += [fault for fault in placed if fault.location.line not in refused]
+    faults = [*solution.faults, *lengths_of_parts.without_missing(faults, solution.missing)]
     if faults or kind is None:
         return None, faults
     values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
     named = values.pop(PARTS, ())
     assignment = Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels)
+    assignment = replace(assignment, lengths=tuple(solution.lengths))
     if not named:
         return assignment, []
     members, faults = parts.read(top, path, named, find, lambda source, file: assess(source, file, kinds, find))
@@ -89,7 +93,7 @@ def unchecked(source: Source, path: Path, kinds: Collection[str], find: Callable
     Return None if the kind is unknown or a single value is faulty.
     """
     top, faults = _top(source)
-    raw: dict[str, Any] = {} if top is None else plain(top)
+    raw: dict[str, Any] = {} if top is None else plain(_with_lengths(top, path, kinds, find).top)
     name = raw.get("kind")
     if faults or not isinstance(name, str) or name not in kinds:
         return None
@@ -100,6 +104,20 @@ def unchecked(source: Source, path: Path, kinds: Collection[str], find: Callable
     values = {"positions": Positions(), "drawing": Drawing(), "indicator": None, **draft.sections}
     values.pop(PARTS, ())
     return Assignment(kind.name, **values, source=path, id=path.stem, turns=kind.turns, names=kind.labels)
+
+
+def in_coursework(
+    source: Source, path: Path, whole: Path, kinds: Collection[str], find: Callable[[str], Kind]
+) -> Source:
+    """Return the nodes of a part's file with the values that it takes from the coursework `whole`, and faults."""
+    return parts.in_coursework(source, path, whole, find, lambda top: _with_lengths(top, whole, kinds, find).top)
+
+
+def _with_lengths(
+    top: MappingNode, path: Path, kinds: Collection[str], find: Callable[[str], Kind]
+) -> lengths_of_parts.SolvedParts:
+    """Return the nodes of a machine's file with the lengths that its parts give."""
+    return lengths_of_parts.solved(top, path, find, lambda source, file: assess(source, file, kinds, find))
 
 
 def name_faults(path: Path) -> Iterator[Fault]:

@@ -262,6 +262,11 @@ class Case(ABC):
 class CaseOfParts(Case):
     """A case made of cases: it joins the outputs of its parts, with ids, symbols and titles for each part."""
 
+    @property
+    @abstractmethod
+    def lengths_of_parts(self) -> Mapping[str, str]:
+        """The ids of the lengths that parts give, by the ids under which the machine's ledger has them."""
+
     @abstractmethod
     def joined_key(self, keys: Sequence[Key]) -> Key:
         """Return the answer key, joined from those of the parts."""

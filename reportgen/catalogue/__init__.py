@@ -3,15 +3,16 @@
 A machine is found by its module in this package and its words in `templates/<language>/catalogue/`: the kind
 `slider-crank` is the module `slider_crank` and the file `slider-crank.md`. A module defines `TURNS` of the driver
 in a cycle, the model `Parameters`, optionally the model `Indicator`, and `CHECKS`. It defines `position_labels` if
-a turn has positions besides the evenly spaced ones, `WARNINGS` (checks for what is allowed but probably not
+a turn has positions besides the evenly spaced ones, `LENGTHS_OF_PARTS` (the keys of lengths that parts of a
+coursework can give), `WARNINGS` (checks for what is allowed but probably not
 intended), and `machine`, which makes a `Machine` of an assignment.
 
 A kind that is not a machine has its module in another package and is also found by its words; it defines `case` in
 place of `machine`, which makes a case of its type. `PART` is the prefix of the ids of a kind that can be a part of
-a coursework; `index` in its words is added to symbols that an earlier part has, too. `table_rows` returns the
-entries that `solve` prints for a position, if they are not its plain entries; `results` in its words has the
-titles. Ids that only one kind has are in a module with its name, such as `cam_ids`
-(`reportgen.formula.vocabulary.heads`).
+a coursework; `index` in its words is added to symbols that an earlier part has, too. `lengths` returns the lengths
+that such a part finds for the machine (`SolvedLength`), by their letters. `table_rows` returns the entries that
+`solve` prints for a position, if they are not its plain entries; `results` in its words has the titles. Ids that
+only one kind has are in a module with its name, such as `cam_ids` (`reportgen.formula.vocabulary.heads`).
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.assignment import parts, reading
+from reportgen.assignment import reading
 from reportgen.assignment.common import Assignment, Drawing, Extended, Kind, Part, Positions, named_worked
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, places, schema_of
@@ -134,6 +135,8 @@ def kind(name: str) -> Kind:
         indicator_optional=getattr(machine, "INDICATOR_OPTIONAL", False),
         has_positions=getattr(machine, "HAS_POSITIONS", True),
         part=getattr(machine, "PART", ""),
+        lengths=getattr(machine, "lengths", None),
+        lengths_of_parts=getattr(machine, "LENGTHS_OF_PARTS", ()),
         positions=getattr(machine, "PositionsModel", Positions),
         drawing=getattr(machine, "DrawingModel", Drawing),
         topics=topics() if takes_topics else (),
@@ -254,7 +257,7 @@ def load(path: Path | str, language: Language | None = None, whole: Path | None 
 
 def with_taken(source: Source, path: Path, whole: Path | None) -> Source:
     """Return nodes that were read from `path`; a part includes the values taken from the coursework `whole`."""
-    return parts.in_coursework(source, path, whole, kind) if whole else source
+    return reading.in_coursework(source, path, whole, kinds(), kind) if whole else source
 
 
 def _in_order(source: Source, path: Path, language: Language | None) -> Assignment:

@@ -48,7 +48,8 @@ class WantedStroke(Part):
 class LengthSearch:
     """The search for lengths: the group of keys with the `wanted` motion, and the lengths of the file by their keys.
 
-    A length is None if it is to be found. Without a wanted motion nothing can be found.
+    A length is None if it is to be found. Without a wanted motion nothing can be found. `driven` is the key of a rocker
+    that is to be found, which only a part of a coursework can do; else "".
     """
 
     group: str
@@ -58,6 +59,7 @@ class LengthSearch:
     frame: tuple[str, Given | None]
     side: str | None
     hints: Mapping[str, str]
+    driven: str = ""
 
     @property
     def selected_by(self) -> str:
@@ -90,6 +92,9 @@ class LengthSearch:
     def findings(self) -> Iterator[Finding]:
         """Yield faults of the keys; without any, why there is no mechanism."""
         lengths = (self.crank, self.coupler, self.frame)
+        if self.driven:
+            yield Finding("find-by-part", (*TOP, self.driven), {"key": self.driven})
+            return
         if self.wanted is None:
             for key, given in lengths:
                 if given is None:
@@ -106,12 +111,12 @@ class LengthSearch:
 
 
 def rocker_search(
-    swing: WantedSwing | None, AB: Given | None, BC: Given | None, AD: Given | None, CD: Given
+    swing: WantedSwing | None, AB: Given | None, BC: Given | None, AD: Given | None, CD: Given | None
 ) -> LengthSearch:
     """Return the search for lengths of a four-bar with the rocker CD."""
-    wanted = None if swing is None else CrankRocker(swing.K.si, swing.psi.si, CD.si)
-    side = None if swing is None else swing.A
-    return LengthSearch("swing", wanted, ("AB", AB), ("BC", BC), ("AD", AD), side=side, hints=OF_ROCKER)
+    wanted = None if swing is None or CD is None else CrankRocker(swing.K.si, swing.psi.si, CD.si)
+    side, driven = None if swing is None else swing.A, "CD" if CD is None else ""
+    return LengthSearch("swing", wanted, ("AB", AB), ("BC", BC), ("AD", AD), side=side, hints=OF_ROCKER, driven=driven)
 
 
 def slider_search(stroke: WantedStroke | None, crank: Given | None, rod: Given | None, e: Given | None) -> LengthSearch:

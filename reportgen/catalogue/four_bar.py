@@ -11,7 +11,7 @@ right of it: φ₂ = sβ − δ, φ₃ = 180° − δ − sγ.  The closed loop,
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import Literal
 
@@ -273,12 +273,12 @@ class LinkForce(Part):
 class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), loads=("torque", "force")):
     """Lengths, the branch, the speed; coupler points, masses and loads only if they are given.
 
-    AB, BC and AD may be found from the `swing` that they are to give the rocker.
+    AB, BC and AD may be found from the `swing` that they are to give the rocker; a part of a coursework may give any.
     """
 
     AB: FoundLength
     BC: FoundLength
-    CD: Length
+    CD: FoundLength
     AD: FoundLength
     swing: WantedSwing | None = None
     frame: Angle = Given(0.0, 0.0, "deg", "0 deg")
@@ -300,12 +300,17 @@ class Parameters(Driven, masses=(1, 2, 3), moments=(1, 2, 3), shares=(1, 2, 3), 
         return rocker_search(self.swing, self.AB, self.BC, self.AD, self.CD)
 
 
-def _calculation(given: Parameters, crank: Given | None = None) -> GivenData:
-    """Return the given data, coupler points, mass centres, masses, moments of inertia and Grashof's sums."""
+def _calculation(
+    given: Parameters, crank: Given | None = None, of_part: Callable[[str], str] = lambda key: ""
+) -> GivenData:
+    """Return the given data, coupler points, mass centres, masses, moments of inertia and Grashof's sums.
+
+    `of_part` returns a key whose length a part of the coursework gives; "" for any other key.
+    """
     q = GivenData(given)
-    for id, length in {"AB": given.AB, "BC": given.BC, "DC": given.CD, "AD": given.AD}.items():
+    for key, length in {"AB": given.AB, "BC": given.BC, "CD": given.CD, "AD": given.AD}.items():
         if length is not None:
-            q.datum(ids.length(id), length, Symbol("l", "CD" if id == "DC" else id))
+            q.datum(ids.length("DC" if key == "CD" else key), length, Symbol("l", key), from_part=of_part(key))
     if given.swing is not None:
         find_four_bar(q, given.swing, given.search)
     if given.frame.si:
@@ -369,6 +374,7 @@ def _check_found(given: Parameters) -> Iterator[Finding]:
     yield from given.search.findings()
 
 
+LENGTHS_OF_PARTS = ("AB", "BC", "CD", "AD")
 CHECKS = (_check_found, _check_turning)
 
 
@@ -376,7 +382,7 @@ def machine(assignment: Assignment) -> Machine:
     """Return the four-bar linkage of an assignment: linkage, loads, analytic method."""
     given: Parameters = assignment.parameters
     positions, turn = assignment.positions, assignment.positions.sign
-    q = _calculation(given, assignment.drawing.crank)
+    q = _calculation(given, assignment.drawing.crank, assignment.key_of_part)
     linkage, frame, force = _linkage(given, q), given.frame.si, given.force
     q.fix("p.D", linkage.ground["D"], q["l.AD"])
     start = positions.start_or(frame)

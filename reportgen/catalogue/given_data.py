@@ -60,12 +60,16 @@ class GivenData(Calculation):
         super().__init__()
         self.given = given
 
-    def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "") -> Ref:
+    def datum(self, id: str, given: Given, symbol: Symbol | str = "", kind: str = "", from_part: str = "") -> Ref:
         """Enter a quantity as typed; a ratio `1/3.6` is evaluated in the report.
 
         If the conversion gives more figures than anyone types (6 lb = 2.72155422 kg), the value is rounded like a
-        result.
+        result. A quantity that a part of the coursework gives, for the key `from_part`, follows the part's own value.
         """
+        if from_part:
+            symbol, kind = symbol or vocabulary.symbol(id), kind or vocabulary.row(id).kind
+            of_part = self.give(ids.of_part(id), given.si, symbol, kind, hidden=True)
+            return self.define(id, of_part, symbol, kind, from_part=from_part)
         top, slash, bottom = given.text.partition("/")
         if slash and not given.unit:
             return self.define(id, Number(float(top)) / float(bottom), symbol, kind)

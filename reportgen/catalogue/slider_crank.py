@@ -31,6 +31,7 @@ from reportgen.machine.load_laws import TableLaw
 from reportgen.machine.loads import Applied, fixed
 
 TURNS = 1
+LENGTHS_OF_PARTS = ("r", "l", "e")
 
 
 class Parameters(Driven, masses=(2, 3), moments=(2,), centres=(2,), loads=("force",)):
@@ -73,9 +74,10 @@ def machine(assignment: Assignment) -> Machine:
     positions, turn = assignment.positions, assignment.positions.sign
     q = GivenData(given)
     has_centre = bool(given.s or q.centre_of(2)) or any(q.of_link(letter, 2) for letter in "GmJ")
-    for id, length in {"l.AB": given.r, "l.BC": given.l, "e": given.e}.items():
+    for key, id in {"r": "l.AB", "l": "l.BC", "e": "e"}.items():
+        length: Given | None = getattr(given, key)
         if length is not None and (length.si or id != "e"):
-            q.datum(id, length)
+            q.datum(id, length, from_part=assignment.key_of_part(key))
     if given.stroke is not None:
         find_slider_crank(q, given.stroke, given.search)
     r, l, e = q["l.AB"], q["l.BC"], q.find("e")  # noqa: E741

@@ -39,6 +39,8 @@ RUN_IN = 4
 """Level of a run-in heading, which is printed in its paragraph."""
 SYMBOLS = (34.0, 96.0, 30.0)
 """Widths (mm) of the columns of the table of the parts' symbols."""
+GIVEN = "tab.given"
+"""Key of the table of a machine's given data."""
 NAMED = (Section, Equation, Table, Figure, Plate, Reference)
 """Types of nodes that have a key or refer to one."""
 
@@ -49,6 +51,7 @@ class PartReport:
 
     `taken` lists the data from the machine, `lettered` the symbols with the part's index.  `symbols` are rows (symbols,
     meaning, unit) for its quantities that are not explained where they are used; `summary` are its main results.
+    `lengths` are those that it gives the machine; the chapters of such a part come before the machine's.
     """
 
     name: str
@@ -58,6 +61,7 @@ class PartReport:
     lettered: Blocks = ()
     symbols: tuple[tuple[Inlines, Inlines, Inlines], ...] = ()
     summary: Blocks = ()
+    lengths: Blocks = ()
 
     def group(self, what: str) -> Blocks:
         """Return the blocks below the heading that opens a section; "" for the chapters, their headings included."""
@@ -88,8 +92,12 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
     last_topic = "overview" if any(topic(head) == "overview" for head, *_ in sections) else "conclusion"
     counted = [index for index, (head, *_) in enumerate(sections) if isinstance(head, Section) and head.numbered]
     last = counted[-1] if counted else len(sections) - 1
+    first = counted[0] if counted else last
     blocks: list[Block] = []
     for index, (head, *below) in enumerate(sections):
+        if index == first:
+            for part in parts:
+                blocks += chapter_of(part) if part.lengths else ()
         below = list(with_parts_named(below, parts, words)) if topic(head) == "foreword" else below
         blocks += (with_titles(head, parts) if isinstance(head, Cover) else head, *below)
         if topic(head) == "symbols":
@@ -106,9 +114,23 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
             blocks += senses
         if index == last:
             for part in parts:
-                blocks += (Section(1, (Text(part.title),)), *part.lettered, *part.group(""))
+                blocks += () if part.lengths else chapter_of(part)
     listed = (contents(one.title, blocks, one.brief) if isinstance(one, Contents) else one for one in blocks)
     return number(replace(machine, blocks=tuple(listed)))
+
+
+def chapter_of(part: PartReport) -> Blocks:
+    """Return the chapter of a part, with the lengths that it gives the machine at its end."""
+    return (Section(1, (Text(part.title),)), *part.lettered, *part.group(""), *part.lengths)
+
+
+def with_lengths(machine: Document, lengths: Iterable[Block]) -> Document:
+    """Return a report or task of a machine that names the lengths which parts give, below the table of its data."""
+    blocks = list(machine.blocks)
+    place = next((n for n, block in enumerate(blocks) if isinstance(block, Table) and block.key == GIVEN), None)
+    if place is not None:
+        blocks[place + 1 : place + 1] = lengths
+    return replace(machine, blocks=tuple(blocks))
 
 
 def handout(machine: Document, parts: Sequence[PartReport]) -> Document:

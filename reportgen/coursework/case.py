@@ -12,7 +12,7 @@ from typing import Any, Self
 
 import numpy as np
 
-from reportgen.assignment.common import PARTS, AssignedPart, Assignment, TakenDatum
+from reportgen.assignment.common import PARTS, AssignedPart, Assignment, LengthOfPart, TakenDatum
 from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.case.answer_key import Key, PartOfKey, Span, capitalised
 from reportgen.case.missing_chapters import MissingChapter
@@ -20,7 +20,7 @@ from reportgen.case.quantity_wording import phrase
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft
 from reportgen.coursework import senses
-from reportgen.coursework.booklet import PartReport, booklet, handout
+from reportgen.coursework.booklet import PartReport, booklet, handout, with_lengths
 from reportgen.coursework.senses import PartShafts
 from reportgen.coursework.symbol_renaming import Letters, changed, letters_of, nodes, relettered
 from reportgen.document import Block, Document, Equation, InlineMath, Inlines, Paragraph, Text, listed
@@ -29,12 +29,14 @@ from reportgen.drawing.animation import Animation
 from reportgen.drawing.drawing_sheet import DrawingSheet
 from reportgen.drawing.plates import DrawingPlate
 from reportgen.drawing.plates import changed as with_change
-from reportgen.formula import Chain, Expression, Number, Ref, Symbol
+from reportgen.formula import Chain, Expression, Number, Ref, Symbol, ids, size
 from reportgen.formula.calculation import Family
 from reportgen.formula.ledger import Ledger
 
 _NUMBER = re.compile(r"\b\d\b")
 """The number of a wheel in the name of a quantity."""
+PINS = "ABCD"
+"""Letters of the pins of a four-bar or slider-crank, which its synthesis uses too."""
 MACHINE = "machine"
 """The name of the first part, the machine."""
 
@@ -125,6 +127,16 @@ class Coursework(CaseOfParts):
     def machine(self) -> Case:
         return self.first.case
 
+    @cached_property
+    def lengths_of_parts(self) -> Mapping[str, str]:
+        return {ids.of_part(id): member.id(length.id) for id, member, length in self._lengths()}
+
+    def _lengths(self) -> Iterator[tuple[str, PartCase, LengthOfPart]]:
+        """Yield the lengths that parts give: the machine's id, the part, and the length in it."""
+        own = {family.from_part: id for id, family in self.machine.printed.families.items() if family.from_part}
+        for length in self.assignment.lengths:
+            yield own[length.key], self.members[length.part], length
+
     @property
     def words(self) -> Mapping[str, Any]:
         return self.machine.words
@@ -157,6 +169,10 @@ class Coursework(CaseOfParts):
             families |= member.whole(ledger, self.letters[member.name])
             decimals |= {member.id(id): digits for id, digits in ledger.decimals.items()}
         return replace(machine, families=families, decimals=decimals)
+
+    def _gives(self, member: PartCase) -> bool:
+        """Return True if a part gives the machine lengths, so that its chapters come first."""
+        return any(self.members[length.part] is member for length in self.assignment.lengths)
 
     @property
     def families(self) -> Mapping[str, Family]:
@@ -216,6 +232,9 @@ class Coursework(CaseOfParts):
         taken = {one for before in earlier for one in nodes(before.document.blocks, Symbol)}
         own = {one.symbol for one in member.case.printed.families.values() if not one.hidden and not one.is_plane}
         points = set(nodes(member.document.blocks, Symbol)) - own
+        if self._gives(member):
+            # The pins of the mechanism that it finds are those of the machine.
+            points -= {one for one in points if one.base in PINS and not one.sub}
         return sorted((one for one in points & taken if _names_a_point(one)), key=lambda one: (one.base, one.sub))
 
     @cached_property
@@ -238,7 +257,8 @@ class Coursework(CaseOfParts):
 
     def document(self) -> Document:
         parts = [self._report(member) for member in self.members]
-        return booklet(self.documents[MACHINE], parts, self.words, tuple(self._senses()))
+        machine = with_lengths(self.documents[MACHINE], self._named_lengths())
+        return booklet(machine, parts, self.words, tuple(self._senses()))
 
     def _senses(self) -> Iterator[Block]:
         """Yield the senses in which the shafts turn, if the machine's driver turns."""
@@ -265,16 +285,25 @@ class Coursework(CaseOfParts):
         lettered = tuple(self._symbol_remarks(letters, member))
         summary = tuple(relettered(member.case.summary(), letters))
         taken = tuple(self._taken(member))
-        return PartReport(member.name, member.title, document, taken, lettered, symbols=rows, summary=summary)
+        return PartReport(
+            member.name,
+            member.title,
+            document,
+            taken,
+            lettered,
+            symbols=rows,
+            summary=summary,
+            lengths=tuple(self._given_lengths(member)),
+        )
 
     def _symbol_remarks(self, letters: Letters, member: PartCase) -> Iterator[Paragraph]:
         """Yield the sentences on the symbols of a part with its index, and on its points that share a name with earlier
         ones.
         """
-        words = self.words["coursework"]
+        words, beside = self.words["coursework"], "_of_machine" if self._gives(member) else ""
         for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
             if symbols:
-                lead = str(words[key]).format(index=member.index)
+                lead = str(words[f"{key}{beside}"]).format(index=member.index)
                 yield Paragraph((Text(lead), *listed(map(InlineMath, symbols)), Text(".")))
 
     def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
@@ -289,6 +318,26 @@ class Coursework(CaseOfParts):
             chains.append(Chain((symbol, *times, *value)))
         if chains:
             yield Paragraph((Text(str(self.words["coursework"]["taken"]).strip()),))
+            yield Equation(tuple(chains))
+
+    def _named_lengths(self) -> Iterator[Paragraph]:
+        """Yield the names of the lengths of the machine that parts give; a task must not show more."""
+        for giver in filter(self._gives, self.members):
+            symbols = [self.machine.printed.symbol(id) for id, member, _ in self._lengths() if member is giver]
+            text = str(self.words["coursework"]["lengths"]).format(title=giver.title)
+            yield Paragraph((Text(text), *listed(map(InlineMath, symbols)), Text(".")))
+
+    def _given_lengths(self, giver: PartCase) -> Iterator[Paragraph | Equation]:
+        """Yield the lengths that a part gives the machine: l_AB = a = 39.53 mm."""
+        letters, chains = self.letters[giver.name], list[Chain]()
+        for id, member, length in self._lengths():
+            if member is giver:
+                own, number = member.case.printed.symbol(length.id), member.case.printed.number(length.id)
+                symbol = letters.get(own, own)
+                of: Expression = size(symbol) if number.value < 0 else symbol
+                chains.append(Chain((self.machine.printed.symbol(id), of, replace(number, value=abs(number.value)))))
+        if chains:
+            yield Paragraph((Text(str(self.words["coursework"]["given_lengths"]).strip()),))
             yield Equation(tuple(chains))
 
     def _taken_symbols(self, member: PartCase, datum: TakenDatum) -> tuple[Symbol, Symbol]:
@@ -337,6 +386,7 @@ class Coursework(CaseOfParts):
 
     def joined_task(self, papers: Sequence[Document]) -> Document:
         machine, *others = papers
+        machine = with_lengths(machine, self._named_lengths())
         return handout(machine, list(map(self._handout, self.members, others)))
 
     def _handout(self, member: PartCase, paper: Document) -> PartReport:

@@ -74,7 +74,8 @@ class Family:
     `written` is a formula of the same value that replaces the definition on the page, where printed figures would be
     too few for that. A `residue` is the rounding difference of two computations of one number. A `converted` value was
     typed in a unit that gives more figures than anyone types; it is rounded like a result. A `trial` value belongs to a
-    step of an iteration: it depends on where the iteration starts, so nobody is asked for it.
+    step of an iteration: it depends on where the iteration starts, so nobody is asked for it. A value that a part of a
+    coursework gives the machine has in `from_part` its key in the machine's file.
     """
 
     id: str
@@ -94,6 +95,7 @@ class Family:
     residue: bool = False
     converted: bool = False
     trial: bool = False
+    from_part: str = ""
 
     @property
     def line(self) -> Expression | None:

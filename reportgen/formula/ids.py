@@ -278,6 +278,7 @@ unit = Name("unit.{id}")  # its direction
 rule = Name("rule.{id}")  # value of an integral by a rule for the positions
 reading = Name("read.{id}")  # value read off a curve
 rest = Name("rest.{id}")  # remainder of that integral
+of_part = Name("part.{id}")  # the same length in the part of a coursework that gives it
 
 # --- names other than ids: of the forces of a plan and of the corners of a plan of accelerations
 

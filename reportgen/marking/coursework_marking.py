@@ -15,6 +15,7 @@ from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import read_source
 from reportgen.case.answer_key import Key, PartOfKey
+from reportgen.formula.vocabulary import KINDS
 from reportgen.marking.authenticity import Classmate
 from reportgen.marking.marking_data import Marked, Marking, Notice, Place, Submission
 from reportgen.marking.marking_policy import Policy
@@ -48,7 +49,21 @@ def sheets_of(
         policy = replace(scheme.policy, weights=worths)
         mates = (_own_classmate(classmate, part.name) for classmate in classmates)
         own = replace(alone, key=key, policy=policy)
-        yield PartSubmission(part, own, _own_submission(submission, scheme.key, part), tuple(filter(None, mates)))
+        sheet = _own_submission(submission, scheme.key, part)
+        if part is scheme.key.parts[0]:
+            sheet = replace(sheet, of_parts=dict(_lengths_of_parts(scheme, submission)))
+        yield PartSubmission(part, own, sheet, tuple(filter(None, mates)))
+
+
+def _lengths_of_parts(scheme: MarkingScheme, submission: Submission) -> Iterator[tuple[str, float]]:
+    """Yield the student's own lengths (SI) that the machine takes from other parts, by their ids in its ledger.
+
+    A link's length has no sign.
+    """
+    for id, source in scheme.sources.items():
+        given = submission.values.get((source, 0))
+        if given is not None and given.value:
+            yield id, abs(given.value) * KINDS[scheme.key.row(source).kind].scale
 
 
 def share(shares: Mapping[str, float], earned: Mapping[str, float], name: str) -> float:

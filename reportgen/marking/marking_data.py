@@ -60,6 +60,8 @@ class Submission:
     drawn: frozenset[Place] = frozenset()
     unseen: frozenset[Place] = frozenset()
     """Places that a report mentions only in hidden text, which is not read."""
+    of_parts: Mapping[str, float] = field(default_factory=dict)
+    """For the machine of a coursework: the student's own lengths (SI) from other parts, by the ids of these lengths."""
     fingerprint: str = ""
     """For a sheet prefilled from such files: the fingerprint of its content when it was written."""
 

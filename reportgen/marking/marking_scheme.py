@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.case import Case, Misconceptions
+from reportgen.case import Case, CaseOfParts, Misconceptions
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary
 from reportgen.formula.ledger import Ledger, standing_on
@@ -36,6 +36,8 @@ class MarkingScheme:
     policy: Policy
     parts: tuple[MarkingScheme, ...] = ()
     """Schemes of the parts of a coursework, each by its own ids."""
+    sources: Mapping[str, str] = field(default_factory=dict)
+    """For a coursework: the ids of lengths that parts give, by the ids under which the machine's ledger has them."""
 
     @cached_property
     def bands(self) -> dict[str, np.ndarray]:
@@ -186,7 +188,16 @@ class MarkingScheme:
 def marking_scheme(case: Case, policy: Policy | None = None) -> MarkingScheme:
     """Return the marking scheme of an assignment, computed in the same way as its report."""
     parts = tuple(marking_scheme(part, policy) for part in case.parts.values())
-    return MarkingScheme(key_of(case), case.ledger, case.misconceptions, case.span.count, policy or Policy(), parts)
+    sources = case.lengths_of_parts if isinstance(case, CaseOfParts) else {}
+    return MarkingScheme(
+        key_of(case),
+        case.ledger,
+        case.misconceptions,
+        count=case.span.count,
+        policy=policy or Policy(),
+        parts=parts,
+        sources=sources,
+    )
 
 
 def makes_scale(ledger: Ledger, id: str, scale: str) -> bool:

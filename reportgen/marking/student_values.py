@@ -236,6 +236,7 @@ def working_of(
     )
     values = {row.id: _column(scheme, row, sheet) for row in scheme.key.asked}
     values = {id: column for id, column in values.items() if not np.isnan(column).all()}
+    values |= {id: np.array([size]) for id, size in submission.of_parts.items()}
     asked = [row.id for row in scheme.key.asked if row.role is Role.scale and row.kind != "segment"]
     scales: dict[str, np.ndarray] = {}
     drawn: dict[str, np.ndarray] = {}

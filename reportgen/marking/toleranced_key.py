@@ -83,7 +83,9 @@ def key_of(case: Case) -> Key:
         reached = part is not KeyChapter.cycle or complete
         workable = not family.residue and (len(values) > 1 or not integral) and is_workable(ledger, id, by_rule)
         chosen = role is Role.scale and not is_round_scale(family)
-        asked = reached and (chosen or (role is Role.asked and workable and not nothing))
+        # A length that a part of a coursework gives is asked for there.
+        computed = role is Role.asked and workable and not (nothing or family.from_part)
+        asked = reached and (chosen or computed)
         return KeyRow(
             id=id,
             part=part,

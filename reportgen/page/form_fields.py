@@ -311,9 +311,9 @@ class Form:
         return FieldGroup((PARTS,), words.label, words.remark, tuple(made), there=bool(made), can_grow=True)
 
     def _about(self, where: Where, item: MappingNode) -> Iterator[FieldLine | FieldGroup]:
-        """Yield the title of a part, and the entries that it takes from the machine."""
+        """Yield the title of a part, and what it takes from the machine or gives it."""
         (table,) = (schema for schema in places(self.root, self.root, where) if "properties" in schema)
-        for key in ("title", "from"):
+        for key in ("title", "from", "gives"):
             path, node = f"{PARTS}.{key}", self._node(item, key)
             entry = self._at((*where, key), path, table["properties"][key], node, False)
             if isinstance(entry, FieldLine) or (entry is not None and entry.there):

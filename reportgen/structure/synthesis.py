@@ -7,12 +7,14 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from reportgen.assignment.checks import of_parameters, one_of
+from reportgen.assignment.common import SolvedLength
 from reportgen.base.errors import Finding
 from reportgen.structure import synthesis_file
 from reportgen.structure.synthesis_file import CRANK_ROCKER, KEYS, OF_FUNCTION, REQUIRED, SLIDER_CRANK, THREE_POINTS
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
+    from reportgen.formula.ledger import Ledger
     from reportgen.structure.synthesis_case import SynthesisCase
     from reportgen.structure.three_point_case import ThreePointCase
 
@@ -56,6 +58,20 @@ def table_rows(position: Mapping[str, Any]) -> dict[str, dict[str, float]]:
         lengths = {symbol: solution[name] for name, symbol in SYMBOLS[task].items()}
         rows[f"solution{number}"] = lengths | {"γ_min": math.degrees(solution["transmission"])}
     return rows
+
+
+def lengths(assignment: Assignment) -> Mapping[str, SolvedLength]:
+    """Return the lengths of the mechanism, of several solutions the chosen one, by their letters."""
+    solved = case(assignment)
+    printed = solved.printed
+    return {letter: SolvedLength(id, _as_printed(printed, id)) for letter, id in solved.lengths.items()}
+
+
+def _as_printed(ledger: Ledger, id: str) -> str:
+    """Return a length as it is printed, with its unit; one of a link that points the other way without its sign."""
+    quantity = ledger.quantity(id)
+    size = f"{quantity.value:.12g}" if quantity.decimals is None else f"{quantity.value:.{quantity.decimals}f}"
+    return f"{size.removeprefix('-')} {ledger[id].how.unit}"
 
 
 # --- checks ---------------------------------------------------------------------------------------

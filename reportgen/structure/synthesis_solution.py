@@ -106,6 +106,16 @@ class SolvedSynthesis(DesignCase):
         """Return the number under which a solution has its crank and coupler."""
         return self.numbers[0] if self.shares_crank else number
 
+    @property
+    def lengths(self) -> dict[str, str]:
+        """The ids of the lengths of the chosen solution, by their letters."""
+        n = number_of(self.chosen)
+        crank, coupler = names.CRANK if self.shares_crank else names.crank(n), names.coupler(self.number_of_crank(n))
+        if not self.has_rocker:
+            return {"r": crank, "l": coupler, "e": names.OFFSET}
+        frame = names.frame(n) if self.given.d is None else names.FRAME
+        return {"a": crank, "b": coupler, "c": names.ROCKER, "d": frame}
+
     # --- ledger
 
     @cached_property

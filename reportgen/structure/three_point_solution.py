@@ -107,6 +107,11 @@ class SolvedThreePoints(DesignCase):
         """True if the least transmission angle is less than permitted."""
         return float(self.ledger[names.LEAST].values[0]) < self.given.gamma.si
 
+    @property
+    def lengths(self) -> dict[str, str]:
+        """The ids of the lengths, by their letters."""
+        return {"a": names.CRANK, "b": names.COUPLER, "c": names.FOLLOWER, "d": synthesis_ids.FRAME}
+
     # --- ledger
 
     @cached_property

@@ -306,6 +306,7 @@ CHANGED: dict[str, list[tuple[Any, ...]]] = {
         ("speed twice", {"omega1: 20 rad/s": "…\n  n: 9 rpm"}, "9:3 both-given"),
         ("weight and mass", {"BC: 340 mm": "…\n  G2: 3 N\n  m2: 1 kg"}, "7:3 both-given"),
         ("crank to be found, no swing", {"AB: 120 mm": "AB: find"}, "4:7 find-without-motion"),
+        ("rocker to be found", {"CD: 280 mm": "CD: find\n  swing: {K: 1.1, psi: 40 deg}"}, "6:7 find-by-part"),
         (
             "a swing, nothing to find",
             {"CD: 280 mm": "…\n  swing: {K: 1.1, psi: 40 deg}"},
