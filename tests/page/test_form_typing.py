@@ -7,6 +7,8 @@ import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from threading import Event
+from typing import Any
 
 import pytest
 
@@ -16,7 +18,7 @@ from reportgen.base.yaml_source import MappingNode, Scalar, read_text
 from reportgen.page.edit_session import EditSession
 from tests.lanes import matrix, proof
 from tests.page.browser import Browser, opened
-from tests.page.typist import SHIFT, Model, Typist, edit_beside, form_alone, play, until, value
+from tests.page.typist import PATIENCE, SHIFT, Model, Typist, edit_beside, form_alone, play, until, value
 
 KIND = "slider-crank"
 KEYS = ["r", "l", "n"]
@@ -200,6 +202,29 @@ def typed_at_random(browser: Browser, file: Path, seed: int) -> None:
         assert {where: text for where, text in texts(file).items() if text} == {
             where: text for where, text in model.values.items() if text
         }, log
+
+
+def test_half_a_text_behind_a_slow_answer_is_not_written_once_it_is_typed_on(browser: Browser, file: Path) -> None:
+    """The half that rested while another change was on its way is never sent."""
+    gate, asked = Event(), []
+    with form_alone(file, lambda: 0.0 if gate.wait(PATIENCE) else 1.0) as server:
+        assert isinstance(server.session, EditSession)
+        late = server.session.edit
+
+        def recorded(change: Any) -> Any:
+            asked.append((change["where"][-1], change["value"]))
+            return late(change)
+
+        server.session.edit = recorded  # type: ignore[method-assign]
+        browser.show(server.address, still=True)
+        typist = Typist(browser)
+        typist.replace("l", "525 mm")
+        typist.replace("r", "1")
+        until(lambda: browser.run("return drafts.due().length"))
+        typist.type("45 mm")
+        gate.set()
+        typist.idle()
+    assert (value(file, ("parameters", "r")), asked) == ("145 mm", [("l", "525 mm"), ("r", "145 mm")])
 
 
 @pytest.mark.parametrize("seed", range(5))

@@ -45,6 +45,11 @@ const drafts = (() => {
     const draft = all.get(place);
     if (!draft || draft.due[0] !== entry || draft.refused || conflict(place)) return null;
     draft.sent = draft.due.shift();
+    // What rested while another change was on its way, and has been typed on since, is half a text: the rest follows.
+    if (draft.sent.typing === draft.typing && draft.sent.text !== draft.text) {
+      draft.sent = null;
+      return null;
+    }
     if (draft.sent.text === draft.base) {
       written(place, draft.base);
       return null;
