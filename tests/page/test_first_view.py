@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import re
 import shutil
 import threading
 from pathlib import Path
@@ -76,6 +77,12 @@ def test_a_page_is_made_without_opening_an_example(monkeypatch: pytest.MonkeyPat
     monkeypatch.setattr(catalogue, "load", None)
     page = Chooser(lambda: open_case(Path()), "vi").page()
     assert page.count('<span class="scheme"><svg') == len(kinds())
+
+
+def test_the_page_of_kinds_has_no_buttons_of_a_form() -> None:
+    """Its styles do not hide closed notices, and its scripts do not open them."""
+    page = Chooser(lambda: open_case(Path()), "vi").page()
+    assert re.findall(r"<button(?![^>]*data-(?:kind|sample))[^>]*>", page) == []
 
 
 @proof
