@@ -187,7 +187,7 @@ class TurningPage(DesignPage[SolvedTurning]):
         heads.append((Text(""),))
         units: list[Inlines] = [(Text(""),), *((Text(printed.number(family(1)).unit),) for family in families)]
         units.append((Text(""),))
-        # Of equal energies the first is marked: another one may be printed with fewer decimals.
+        # Of equal energies the first is marked, which the text names.
         marks = dict(zip(extreme_points(case.energies), case.extremes, strict=True))
         rows: list[tuple[Inlines, ...]] = []
         for k in range(1, case.count_of_areas + 1):

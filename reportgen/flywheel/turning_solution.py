@@ -37,8 +37,8 @@ class SolvedTurning(DesignCase):
     def ledger(self) -> Ledger:
         sheet = self.calculation
         numbers = range(1, self.count_of_areas + 1)
-        energies = (*(names.energy(k) for k in numbers), *self.extremes)
-        same = tuple(map(names.area, numbers)), energies
+        # An energy is a sum of areas, so both have one number of decimals, and equal energies look equal.
+        same = ((*map(names.area, numbers), *map(names.energy, numbers), *self.extremes),)
         made = Ledger(sheet.families, sheet.positions, units=self.unit_names, same=same, lines=sheet.lines)
         return made.in_language(self.words["symbols"])
 

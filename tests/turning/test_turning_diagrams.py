@@ -192,3 +192,17 @@ def test_both_diagrams_of_a_sheet_have_one_scale_of_angles(name: str) -> None:
     scales = [chain[1] for chain in chains if chain[0] == Symbol("μ", "φ")]
     assert len(scales) == 2
     assert scales[0] == scales[1]
+
+
+@pytest.mark.parametrize("name", sorted(path.stem for path in FOLDER.glob("*.yaml")))
+def test_areas_and_energies_have_one_number_of_decimals(name: str) -> None:
+    """An energy is a sum of areas, so equal energies, such as those of points 2 and 4 of two curves, look equal."""
+    case = open_case(FOLDER / f"{name}.yaml")
+    together = [id for id in case.printed.families if id.startswith(("turning.A.", "turning.E."))]
+    decimals = {case.printed.decimals[id] for id in together} - {None}
+    assert len(decimals) == 1
+    exact, shown = ([one[id].values[0] for id in together] for one in (case.ledger, case.printed))
+    for first, at_first in zip(exact, shown, strict=True):
+        for second, at_second in zip(exact, shown, strict=True):
+            if first == pytest.approx(second, rel=1e-9):
+                assert at_first == at_second
