@@ -17,8 +17,9 @@ EXPECTED = frozenset("学号姓名班级代符数值单位的机理")
 value, unit.
 """
 _HAN = "\u3400-\u4dbf\u4e00-\u9fff"
-_LETTERS = re.compile(f"[{_HAN}]")
-_BETWEEN = re.compile(f"(?<=[{_HAN}])[ \u3000]+(?=[{_HAN}])")
+# Patterns are texts, which `re` compiles at their first use: sets of so many letters take it long.
+_LETTERS = f"[{_HAN}]"
+_BETWEEN = f"(?<=[{_HAN}])[ \u3000]+(?=[{_HAN}])"
 _WIDE = {wide: wide - 0xFEE0 for wide in range(0xFF01, 0xFF5F)} | {0x3000: 0x20}
 
 
@@ -30,10 +31,10 @@ def is_gbk(data: bytes) -> bool:
     """
     try:
         text = data.decode(CODEC)
-        _LETTERS.sub("", text).encode("gbk")
+        re.sub(_LETTERS, "", text).encode("gbk")
     except UnicodeError:
         return False
-    letters = [letter.encode(CODEC) for letter in _LETTERS.findall(text)]
+    letters = [letter.encode(CODEC) for letter in re.findall(_LETTERS, text)]
     return not EXPECTED.isdisjoint(text) and sum(map(_is_common, letters)) >= COMMON * len(letters)
 
 
@@ -44,7 +45,7 @@ def _is_common(letter: bytes) -> bool:
 
 def joined(text: str) -> str:
     """Return a text without the blanks between Chinese letters, which are only for alignment."""
-    return _BETWEEN.sub("", text)
+    return re.sub(_BETWEEN, "", text)
 
 
 def full_name(*parts: str) -> str:

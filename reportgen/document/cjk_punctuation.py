@@ -17,27 +17,29 @@ from reportgen.formula import Symbol
 
 _NARROW, _FORMULAS, _WIDE = 0xF0000, 0xF8000, 0x100000
 """First private characters that represent inlines other than text, by how the inlines begin and end."""
+# Patterns are texts, which `re` compiles at their first use: sets of so many letters take it long, and only such
+# languages need them.
 _W = "\u2e80-\u303f\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\uff01-\uff5e\U00100000-\U0010fffd"
 """Han letters, and marks as wide as these."""
 _HELD = "\U000f0000-\U000fffef"
 _HAN = "\u3400-\u4dbf\u4e00-\u9fff"
 _MATH = "\U000f8000-\U000fffef"
-_WIDE_LETTER = re.compile(f"[{_W}]")
+_WIDE_LETTER = f"[{_W}]"
 _MARKS: Mapping[str, str] = {",": "，", ";": "；", ":": "：", ".": "。", "?": "？", "!": "！"}
 _PARENTHESES = re.compile(r" *\(([^()]*)\)")
 _TERMS = re.compile("[+−·]|cos|sin")
 _AFTER = f"(?<=[{_W}]) *[,;:?!] *|(?<=[{_W}]) *\\.(?= |$) *"
-_MARK = re.compile(f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$")
-_BETWEEN = re.compile(f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])")
-_FORMULA = re.compile(f"(?<=[{_HAN}])(?=[{_MATH}])|(?<=[{_MATH}])(?=[{_HAN}])")
-_BLANK = re.compile(f"(?<=[{_W}]) +(?![=<>≥≤≈±×·→≡−+–])|(?<![=<>≥≤≈±×·→≡−+–]) +(?=[{_W}])")
+_MARK = f"{_AFTER}|[,;:.?!] +(?=[{_W}])|(?<=[^\\W_]|[{_HELD})°%])[.;:]$"
+_BETWEEN = f"(?<=[^ {_W}])([,;:]) (?=[^ {_W}])"
+_FORMULA = f"(?<=[{_HAN}])(?=[{_MATH}])|(?<=[{_MATH}])(?=[{_HAN}])"
+_BLANK = f"(?<=[{_W}]) +(?![=<>≥≤≈±×·→≡−+–])|(?<![=<>≥≤≈±×·→≡−+–]) +(?=[{_W}])"
 
 
 def unspaced(inlines: tree.Inlines) -> tree.Inlines:
     """Return a line with Chinese punctuation; a line without a Chinese letter is returned unchanged."""
     held: list[tree.Inline] = []
     line = "".join(_letters(inline, held) for inline in inlines)
-    if not _WIDE_LETTER.search(line):
+    if not re.search(_WIDE_LETTER, line):
         return inlines
     symbols = {chr(_FORMULAS + n) for n, one in enumerate(held) if _is_symbol(one)}
     return tuple(_inlines(_set(line, symbols), held))
@@ -54,8 +56,8 @@ def _set(line: str, symbols: set[str]) -> str:
     def parenthesis(match: re.Match[str]) -> str:
         around = line[: match.start()][-1:] + match[1] + line[match.end() :][:1]
         # A blank before it makes it a remark; with a sum or a product in it, it is part of a formula.
-        remark = match[0][0] == " " or _WIDE_LETTER.search(around)
-        formula = _TERMS.search(match[1]) and not _WIDE_LETTER.search(match[1])
+        remark = match[0][0] == " " or re.search(_WIDE_LETTER, around)
+        formula = _TERMS.search(match[1]) and not re.search(_WIDE_LETTER, match[1])
         return f"（{match[1]}）" if remark and not formula else match[0]
 
     def between(match: re.Match[str]) -> str:
@@ -65,8 +67,8 @@ def _set(line: str, symbols: set[str]) -> str:
         return "、" if all(side.isalnum() or side in symbols for side in sides) else "，"
 
     line = _PARENTHESES.sub(parenthesis, line)
-    line = _MARK.sub(lambda match: _MARKS[match[0].strip()[0]], line)
-    return _FORMULA.sub(" ", _BLANK.sub("", _BETWEEN.sub(between, line)))
+    line = re.sub(_MARK, lambda match: _MARKS[match[0].strip()[0]], line)
+    return re.sub(_FORMULA, " ", re.sub(_BLANK, "", re.sub(_BETWEEN, between, line)))
 
 
 def _letters(inline: tree.Inline, held: list[tree.Inline]) -> str:
@@ -76,7 +78,7 @@ def _letters(inline: tree.Inline, held: list[tree.Inline]) -> str:
     begins = _FORMULAS if isinstance(inline, (tree.InlineMath, tree.Value)) else _NARROW
     if isinstance(inline, (tree.Emph, tree.Strong)):
         inner = "".join(one.text for one in inline.of if isinstance(one, tree.Text))
-        begins = _WIDE if _WIDE_LETTER.search(inner) else _NARROW
+        begins = _WIDE if re.search(_WIDE_LETTER, inner) else _NARROW
         inline = type(inline)(unspaced(inline.of))
     held.append(inline)
     return chr(begins + len(held) - 1)
