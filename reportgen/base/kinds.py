@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
-from reportgen.base.template_folders import ATLAS_BASE, REFERENCE, atlas_files, kind_file, kind_places, templates
+from reportgen.base.template_folders import ATLAS_BASE, MACHINES, REFERENCE, atlas_files, kind_places, templates
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
 
@@ -32,10 +33,15 @@ def program_kinds() -> Mapping[str, str]:
     other folders.
     """
     package = Path(__file__).parents[1]
-    modules = sorted(package.glob("*/*.py"), key=lambda path: path.parent.name == "catalogue")
-    named = {path.stem.replace("_", "-"): f"{package.name}.{path.parent.name}.{path.stem}" for path in modules}
-    root = templates()
-    return {kind: named[kind] for kind in sorted(named) if kind_file(REFERENCE, kind, root).is_file()}
+    worded = {name.removesuffix(".md") for name in os.listdir(templates() / REFERENCE / MACHINES)}
+    folders = sorted(filter(os.DirEntry.is_dir, os.scandir(package)), key=lambda folder: folder.name == "catalogue")
+    named = {
+        name.removesuffix(".py").replace("_", "-"): f"{package.name}.{folder.name}.{name.removesuffix('.py')}"
+        for folder in folders
+        for name in os.listdir(folder)
+        if name.endswith(".py")
+    }
+    return {kind: named[kind] for kind in sorted(worded & named.keys())}
 
 
 def title(name: str, language: Language) -> str:

@@ -183,9 +183,16 @@ def decimal_mark(language: Language) -> DecimalMark:
 class UnitNames(dict[str, str]):
     """Units as a language prints them: some as a whole, others letter by letter, m/s as м/с."""
 
+    def __init__(self, names: Mapping[str, str]) -> None:
+        super().__init__(names)
+        # A report has thousands of numbers, but few units.
+        self._known = dict(names)
+
     def get(self, unit: str, default: object = None) -> str:
         """Return the printed form of a unit; a unit without another form stays unchanged."""
-        return self[unit] if unit in self else _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
+        if unit not in self._known:
+            self._known[unit] = _LETTERS.sub(lambda found: dict.get(self, found[0], found[0]), unit)
+        return self._known[unit]
 
 
 @cache

@@ -65,6 +65,7 @@ def box(content: Content, size: float = 9.0, displayed: bool = False) -> Box:
     return Boxes(size * POINT, displayed).content(content)
 
 
+@lru_cache(maxsize=4096)
 def _text(text: str, em: float, italic: bool = False) -> Box:
     glyphs = [(italic and ITALIC.get(letter)) or ROMAN.get(letter) or _unknown(letter) for letter in text]
     if not glyphs:

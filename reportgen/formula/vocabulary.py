@@ -472,14 +472,17 @@ def words_of(table: Mapping[str, str], id: str, kind: str, symbol: Symbol) -> It
     A key names one or several quantities, separated by commas. A kind behind a colon limits it to quantities of
     that kind (`balance:force`); `:force` alone matches all of them. If two keys name the same, the first counts.
     """
-    said: dict[str, str] = {}
-    for key, text in table.items():
-        for name in key.split(", "):
-            said.setdefault(name, text)
+    keys = _keys_by_name(tuple(table))
     family, parts = _row_and_words(id)
     named = id, f"{family.name}.{parts.get('axis', '')}", wording(id, symbol)[0]
     nearest = (*(one for name in named if name for one in (f"{name}:{kind}", name)), f":{kind}")
-    return (said[one] for one in nearest if one in said)
+    return (table[keys[one]] for one in nearest if one in keys)
+
+
+@lru_cache(maxsize=64)
+def _keys_by_name(keys: tuple[str, ...]) -> Mapping[str, str]:
+    """Return the first key of a table that names each quantity."""
+    return {name: key for key in reversed(keys) for name in key.split(", ")}
 
 
 @lru_cache(maxsize=4096)
