@@ -57,11 +57,9 @@ def band(row: KeyRow, width: float, figures: int = BAND_DIGITS) -> float | None:
     """
     if width != width:
         return None
-    return (
-        0.0
-        if width < ZERO * np.nanmax(np.abs(row.values), initial=0.0)
-        else significant(significant(width, EXACT), figures)
-    )
+    # For the few values of a row, numpy's own `nanmax` takes ten times as long.
+    greatest = max((abs(value) for value in row.values.tolist() if value == value), default=0.0)
+    return 0.0 if width < ZERO * greatest else significant(significant(width, EXACT), figures)
 
 
 def band_decimals(width: float) -> int:

@@ -13,7 +13,6 @@ import re
 import unicodedata
 import zipfile
 from collections.abc import Iterable, Sequence
-from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -60,6 +59,10 @@ class Entry:
     comment: str = ""
     format: str = ""
     unlocked: bool = False
+
+
+NOTHING = Entry()
+"""A cell that is left as it is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,14 +134,14 @@ def _fill(page: Worksheet, sheet: WorksheetData) -> None:
     for row, entries in enumerate(sheet.rows, start=1):
         for column, content in enumerate(entries, start=1):
             entry = content if isinstance(content, Entry) else Entry(content)
-            if entry == Entry():
+            if entry == NOTHING:
                 continue
             cell: Any = page.cell(row, column)
             _put(cell, entry.value)
             # Looking a style up in the workbook's lists takes longest, so each look is looked up only once.
             look = (entry.style, entry.format, entry.unlocked, bool(cell.quotePrefix))
             if look in dressed:
-                cell._style = copy(dressed[look])
+                cell._style = dressed[look]
             else:
                 _dress(cell, entry)
                 dressed[look] = cell._style
