@@ -1,4 +1,5 @@
-"""What a class costs: reports a minute by two processes over twice what one makes, and the memory of each.
+"""What a class costs: reports a minute by two processes over twice what one makes and over what two typesetters set
+alone, and the memory of each.
 
 `python -m tests.bench.batch` makes the reports of 40 students, in turns by one process and by two.
 """
@@ -27,13 +28,16 @@ from reportgen import api
 from reportgen.classes.batch_run import Order, run_batch
 from reportgen.classes.variants import make_variants
 
-from .measure import Cost, in_turns, middle, run
+from .measure import Cost, in_turns, middle, repeated, run
 
 ROOT = Path(__file__).resolve().parents[2]
 SPEC = ROOT / "assignments" / "class-demo" / "spec.yaml"
 STUDENTS = 40
 SAMPLING = 0.2
 """Seconds between two looks at the workers' memory; the system remembers each one's peak in between."""
+SET_ALONE = "import sys, typst; typst.compile(sys.argv[1], sys.argv[2], ignore_system_fonts=True)"
+TIMES = 5
+"""Reports that each typesetter sets alone."""
 BUSY = "sum(k * k % 7 for k in range(10_000_000))"
 
 
@@ -90,10 +94,28 @@ def plain(folder: Path, size: str) -> float:
     return 2 * 60 / (perf_counter() - begun)
 
 
-def size(given: Path, folder: Path) -> str:
-    """How much a report of the class holds, see `size.py`."""
+def typesetters(folder: Path, source: Path, times: int) -> Cost:
+    """Time a report, and memory, if two typesetters at once set a source a number of `times` and do nothing else.
+
+    Each time is a process of its own: within one, typst would remember the source.
+    """
+    targets = [Path(tempfile.mkdtemp(dir=folder)) for _ in range(2)]
+    commands = [(sys.executable, "-c", SET_ALONE, str(source), str(target / "alone.pdf")) for target in targets]
+    waiting = [partial(repeated, partial(run, *one), times) for one in zip(commands, targets, strict=True)]
+    begun = perf_counter()
+    with ThreadPoolExecutor(2) as both:
+        costs = [cost.result() for cost in [both.submit(one) for one in waiting]]
+    return Cost((perf_counter() - begun) / (2 * times), max(cost.memory for cost in costs))
+
+
+def report_of_one(given: Path, folder: Path) -> tuple[Path, Path]:
+    """The assignment file of one student, and its report, with the source beside it."""
     file = next(iter(sorted(given.glob("*.yaml"))))
-    pdf = api.build(file, folder / "one")
+    return file, api.build(file, folder / "one", keep_source=True)
+
+
+def size(file: Path, pdf: Path) -> str:
+    """How much a report holds, see `size.py`."""
     command = (sys.executable, "-m", "tests.bench.size", str(file), str(pdf))
     return subprocess.run(command, cwd=ROOT, check=True, capture_output=True, text=True).stdout
 
@@ -157,14 +179,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
         group.draw()
         free = machine(folder)
         costs = in_turns({str(n): lambda n=n: group.reports(n) for n in (1, 2)}, chosen.rounds)
-        script = plain(folder, size(folder / "given", folder)) if shutil.which("pdflatex") else math.nan
+        file, pdf = report_of_one(folder / "given", folder)
+        alone = typesetters(folder, pdf.with_suffix(".typ"), TIMES)
+        script = plain(folder, size(file, pdf)) if shutil.which("pdflatex") else math.nan
     print(f"reports of {chosen.students} students")
     for workers, taken in costs.items():
         cost = middle(taken)
-        rate = 60 * chosen.students / cost.seconds
-        print(f"  by {workers}: {rate:6.1f} a minute, peak memory of a worker {cost.memory:.0f} MB (aim ≤ 1024)")
+        rate, over = 60 * chosen.students / cost.seconds, cost.memory / alone.memory
+        memory = f"peak memory of a worker / typesetter {over:.1f} ({cost.memory:.0f} MB; aim ≤ 2)"
+        print(f"  by {workers}: {rate:6.1f} a minute, {memory}")
     print(f"  two over twice one: {efficiency(costs['1'], costs['2']):.2f} (aim ≥ 0.85)")
-    rate = 60 * chosen.students / middle(costs["2"]).seconds
+    rate, most = 60 * chosen.students / middle(costs["2"]).seconds, 60 / alone.seconds
+    print(f"  by two over two typesetters alone: {rate / most:.2f} ({most:.1f} a minute; aim ≥ 0.6)")
     print(f"  by two over a plain script on two processors: {rate / script:.1f} ({script:.1f} a minute; aim ≥ 9)")
     print(f"  two busy processes over twice one on this machine: {free:.2f}")
 
