@@ -5,13 +5,15 @@ from __future__ import annotations
 import logging
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import uvicorn
 
-from reportgen.base.errors import Fault, Location
-from reportgen.base.files import held
+from reportgen import catalogue
+from reportgen.base.errors import AssignmentError, Fault, Location
+from reportgen.base.files import contents, held
+from reportgen.base.template_folders import ATLAS, atlas_files
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
 from reportgen.classes.earlier_draw import read_earlier
@@ -107,11 +109,28 @@ def run(path: Path, base_url: str, host: str, port: int, tell: Callable[[str], N
 
     Raises `AssignmentError` if the class is served already, and for faults of its files.
     """
-    with _alone(path):
+    with _alone(path) as folder:
+        _find_machine(folder)
         site = open_site(path, base_url)
         site.prepares = True
         tell(site.link(DESK))
         _serve(site, host, port)
+
+
+def _find_machine(folder: ClassFolder) -> None:
+    """Raise `AssignmentError` if the machine of the class is not in the atlas, or its file is faulty.
+
+    All variants have the kind of the first one. Other faults of a variant concern one student.
+    """
+    for file in sorted(folder.variants.glob("*.yaml"))[:1]:
+        machines = {str(machine) for machine in atlas_files().values()}
+        with suppress(OSError):
+            if f"{ATLAS}/".encode() not in contents(file):
+                continue
+        problems = catalogue.check(file, folder.language)
+        faulty = [one for one in problems if one.code == "unknown-machine" or one.location.file in machines]
+        if faulty:
+            raise AssignmentError(faulty)
 
 
 def _serve(site: Site, host: str, port: int) -> None:

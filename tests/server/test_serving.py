@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import socket
 import subprocess
 import sys
@@ -12,9 +13,10 @@ import pytest
 from typer.testing import CliRunner
 
 from reportgen.base.files import held
+from reportgen.base.template_folders import ATLAS_VARIABLE, templates
 from reportgen.cli import app
 from reportgen.cli import serving as command
-from reportgen.server import protocol
+from reportgen.server import protocol, serving
 from tests.lanes import proof
 from tests.server.running import HOST, free_port, running
 
@@ -56,6 +58,29 @@ def test_it_says_that_there_is_no_class_and_that_there_is_one(made_class: Path, 
     assert (code, "[serve-class-there]" in said) == (1, True)
     code, said = serve(tmp_path / "new", "--init")
     assert code == 2
+
+
+def test_a_class_is_not_served_without_the_file_of_its_machine(
+    made_class: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each student would be told that there is no such machine; the instructor is, at once."""
+    folder, machines = tmp_path / "class", tmp_path / "machines"
+    shutil.copytree(made_class, folder)
+    machines.mkdir()
+    for file in folder.joinpath("variants").glob("*.yaml"):
+        file.write_text("kind: atlas/lost\nreport: {language: en}\nparameters: {}\n", "utf-8")
+    served: list[object] = []
+    monkeypatch.setattr(serving, "_serve", lambda *arguments: served.append(arguments))
+    monkeypatch.setenv(ATLAS_VARIABLE, "")
+    code, said = serve(folder, "--atlas", machines)
+    assert (code, "[unknown-machine]" in said, "--atlas" in said) == (1, True, True), said
+    right = (templates() / "atlas" / "wiper.yaml").read_text("utf-8")
+    (machines / "lost.yaml").write_text(right.replace("driver:", "drivers:"), "utf-8")
+    code, said = serve(folder, "--atlas", machines)
+    assert (code, "lost.yaml:" in said, served) == (1, True, [])
+    (machines / "lost.yaml").write_text(right, "utf-8")
+    assert serve(folder, "--atlas", machines)[0] == 0
+    assert len(served) == 1
 
 
 def test_two_servers_do_not_share_a_class(made_class: Path) -> None:
