@@ -79,7 +79,9 @@ class OneOf:
             first, second = given[:2]
             yield Finding("both-given", (*self.where, second), {"first": first, "second": second}, at="key")
         elif self.required and not given:
-            yield Finding("missing-key", (*self.where, self.names[0]), {"key": " | ".join(self.names)})
+            # A key without a value is where the user meant to write it.
+            key = next((name for name in content if name in self.names), self.names[0])
+            yield Finding("missing-key", (*self.where, key), {"key": " | ".join(self.names)})
 
 
 def one_of(section: str, *names: str, required: bool = True, form: tuple[str, str] | None = None) -> OneOf:

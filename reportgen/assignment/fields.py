@@ -386,6 +386,34 @@ FIND = "find"
 
 
 @dataclass(frozen=True, slots=True)
+class NumberOrAngle(Reader):
+    """A pure number, or an angle with its unit: the argument of ln x or of sin x."""
+
+    number: Interval
+    angle: Quantity
+
+    def read(self, value: object) -> Given:
+        given = _measured(_number_or_quantity, value)
+        if given.unit:
+            return self.angle.read(value)
+        self.number.require(given.si, given.text)
+        return given
+
+    def schema(self) -> dict[str, Any]:
+        return {"anyOf": [{"type": "number", **self.number.schema()}, self.angle.schema()]}
+
+
+def _number_or_quantity(text: str) -> Given:
+    """Return a pure number, or an angle."""
+    try:
+        return read_quantity(text, "deg")
+    except QuantityFault as problem:
+        if problem.code != "missing-unit":
+            raise
+    return read_ratio(text, fractions=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Sought(Reader):
     """A quantity, or None for `find`."""
 

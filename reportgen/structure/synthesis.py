@@ -10,7 +10,15 @@ from reportgen.assignment.checks import of_parameters, one_of
 from reportgen.assignment.common import SolvedLength
 from reportgen.base.errors import Finding
 from reportgen.structure import synthesis_file
-from reportgen.structure.synthesis_file import CRANK_ROCKER, KEYS, OF_FUNCTION, REQUIRED, SLIDER_CRANK, THREE_POINTS
+from reportgen.structure.synthesis_file import (
+    CRANK_ROCKER,
+    KEYS,
+    OF_ANGLES,
+    OF_FUNCTION,
+    REQUIRED,
+    SLIDER_CRANK,
+    THREE_POINTS,
+)
 
 if TYPE_CHECKING:
     from reportgen.assignment import Assignment
@@ -24,6 +32,8 @@ PART = "synthesis"
 """Prefix of its ids, in a coursework too."""
 HAS_POSITIONS = False
 TOP = ("parameters",)
+SAME = 1e-12
+"""Relative difference below which two values of a function are equal: sin 180° is not exactly 0 in floats."""
 SYMBOLS: Mapping[str, Mapping[str, str]] = {
     CRANK_ROCKER: {"crank": "a", "coupler": "b", "rocker": "c", "frame": "d"},
     SLIDER_CRANK: {"crank": "r", "coupler": "l", "offset": "e"},
@@ -113,24 +123,39 @@ def _of_points(given: Parameters) -> Iterator[Finding]:
     if given.pairs is None:
         ends = {"x": given.x, "driver": given.driver, "follower": given.follower}
         for key, both in ends.items():
-            if both is not None and both[0] == both[1]:
+            if both is not None and both[0].si == both[1].si:
                 yield Finding("synthesis-no-range", (*TOP, key), {"key": key})
                 return
         assert given.x is not None
-        low, high = sorted(given.x)
+        for number, end in enumerate(given.x):
+            if bool(end.unit) != (given.function in OF_ANGLES):
+                code = "unexpected-unit" if end.unit else "missing-unit"
+                yield Finding(code, (*TOP, "x", number), {"text": end.text, "unit": "deg"})
+                return
+        first, last = sorted(given.x, key=lambda end: end.si)
+        low, high, about = first.si, last.si, {"low": first.text, "high": last.text}
         values = [value_of(given, x) for x in (low, (low + high) / 2, high)]
-        pole = given.exponent is not None and given.exponent < 0 and low <= 0 <= high
-        if pole or not all(map(math.isfinite, values)):
-            yield Finding("synthesis-undefined", (*TOP, "x"), {"low": f"{low:g}", "high": f"{high:g}"})
+        if _has_pole(given, low, high) or not all(map(math.isfinite, values)):
+            yield Finding("synthesis-undefined", (*TOP, "x"), about)
             return
-        if values[0] == values[2]:
-            yield Finding("synthesis-equal-values", (*TOP, "x"), {"low": f"{low:g}", "high": f"{high:g}"})
+        if math.isclose(values[0], values[2], rel_tol=SAME, abs_tol=SAME * max(map(abs, values))):
+            yield Finding("synthesis-equal-values", (*TOP, "x"), about)
             return
     pairs, where = pairs_of(given), "pairs" if given.pairs is not None else "driver"
     if pairs.lengths is None:
         yield Finding("synthesis-no-linkage", (*TOP, where))
     elif pairs.side is None:
         yield Finding("synthesis-branch", (*TOP, where))
+    elif given.driver is not None and not pairs.moves_between(given.driver[0].si, given.driver[1].si):
+        yield Finding("synthesis-short-range", (*TOP, "driver"))
+
+
+def _has_pole(given: Parameters, low: float, high: float) -> bool:
+    """Return True if the function is infinite somewhere in a range of x (rad for an angle)."""
+    if given.function == "tan":
+        # The poles are odd multiples of 90°; between two of them the count of half turns is the same.
+        return math.floor(low / math.pi + 0.5) != math.floor(high / math.pi + 0.5)
+    return given.exponent is not None and given.exponent < 0 and low <= 0 <= high
 
 
 CHECKS = (

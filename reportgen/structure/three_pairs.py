@@ -81,6 +81,9 @@ class ThreePairs:
         sides = {self.side_of(k) for k in range(3)}
         if len(sides) > 1:
             return None
-        grid = np.linspace(min(self.driver), max(self.driver), SAMPLES)
-        _, cosine = self._half_angle(grid)
-        return sides.pop() if bool(np.all(np.abs(cosine) < 1)) else None
+        return sides.pop() if self.moves_between(min(self.driver), max(self.driver)) else None
+
+    def moves_between(self, first: float, last: float) -> bool:
+        """Return True if the linkage can be assembled at all crank angles (rad) from the first to the last."""
+        _, cosine = self._half_angle(np.linspace(first, last, SAMPLES))
+        return bool(np.all(np.abs(cosine) < 1))

@@ -11,7 +11,23 @@ import numpy as np
 
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase
-from reportgen.formula import Chain, Expression, Number, Ref, Symbol, acos, atan2, call, cos, exp, ln, sin, size, sqrt
+from reportgen.formula import (
+    Chain,
+    Expression,
+    Number,
+    Ref,
+    Symbol,
+    acos,
+    atan2,
+    call,
+    cos,
+    exp,
+    ln,
+    sin,
+    size,
+    sqrt,
+    tan,
+)
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.ledger import MistakenValues
 from reportgen.structure import synthesis_ids
@@ -23,16 +39,22 @@ THREE = (1, 2, 3)
 SPACING = Number(30.0, unit="°")
 STRAIGHT = Number(180.0, None, "°")
 TURN = 360.0
+POLE = 1e-9
 
 
 def value_of(given: Parameters, x: float) -> float:
-    """Return the function of a file at x; nan where it is not defined."""
+    """Return the function of a file at x (rad for an angle); nan where it is not defined."""
     try:
         match given.function:
             case "ln":
                 return math.log(x)
             case "exp":
                 return math.exp(x)
+            case "sin":
+                return math.sin(x)
+            case "tan":
+                # Near a pole the value has no figures left.
+                return math.tan(x) if abs(math.cos(x)) > POLE else math.nan
             case _:
                 assert given.exponent is not None
                 value = x**given.exponent
@@ -60,8 +82,8 @@ def pairs_of(given: Parameters) -> ThreePairs:
     assert given.driver is not None
     assert given.follower is not None
     (φ0, φn), (ψ0, ψn) = ([angle.si for angle in ends] for ends in (given.driver, given.follower))
-    points = chebyshev_points(*given.x)
-    x0, xn = given.x
+    x0, xn = (end.si for end in given.x)
+    points = chebyshev_points(x0, xn)
     y0, yn = value_of(given, x0), value_of(given, xn)
     return ThreePairs(
         tuple(φ0 + (φn - φ0) * (x - x0) / (xn - x0) for x in points),
@@ -139,6 +161,10 @@ class SolvedThreePoints(DesignCase):
                 return ln(x)
             case "exp":
                 return exp(x)
+            case "sin":
+                return sin(x)
+            case "tan":
+                return tan(x)
             case _:
                 assert self.given.exponent is not None
                 return x**self.given.exponent
@@ -154,13 +180,16 @@ class SolvedThreePoints(DesignCase):
         assert given.x is not None
         assert given.driver is not None
         assert given.follower is not None
-        x0, xn = q.give(names.FIRST_X, given.x[0]), q.give(names.LAST_X, given.x[1])
+        first, last = given.x
+        kind, fine = ("angle", "fine angle") if first.unit else ("", "")
+        x0, xn = q.give(names.FIRST_X, first.si, kind=kind), q.give(names.LAST_X, last.si, kind=kind)
         φ0, φn = q.give(names.FIRST_DRIVER, given.driver[0].si), q.give(names.LAST_DRIVER, given.driver[1].si)
         ψ0, ψn = q.give(names.FIRST_FOLLOWER, given.follower[0].si), q.give(names.LAST_FOLLOWER, given.follower[1].si)
         half = (xn - x0) / 2 * cos(SPACING)
         middle = (x0 + xn) / 2
         x = [
-            q.define(names.argument(k), at) for k, at in zip(THREE, (middle - half, middle, middle + half), strict=True)
+            q.define(names.argument(k), at, kind=fine)
+            for k, at in zip(THREE, (middle - half, middle, middle + half), strict=True)
         ]
         y0, yn = q.define(names.FIRST_Y, self._function(x0)), q.define(names.LAST_Y, self._function(xn))
         y = [q.define(names.result(k), self._function(x[k - 1])) for k in THREE]
@@ -252,7 +281,7 @@ class SolvedThreePoints(DesignCase):
         given = self.given
         assert given.x is not None
         assert given.follower is not None
-        (x0, xn), (φ0, φn) = given.x, self.ends
+        (x0, xn), (φ0, φn) = (end.si for end in given.x), self.ends
         y0, yn = value_of(given, x0), value_of(given, xn)
         ψ0, ψn = (angle.si for angle in given.follower)
         x = x0 + (xn - x0) * (φ - φ0) / (φn - φ0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -39,6 +40,22 @@ FAULTS = [
         "8:6 synthesis-equal-values",
     ),
     ((*FUNCTION[:2], "function: power", "x: [1, 2]", FUNCTION[4], FOLLOWER), "3:1 missing-key"),
+    ((*FUNCTION[:2], "function: sin", "x: [0, 90 deg]", FUNCTION[4], FOLLOWER), "7:7 missing-unit"),
+    ((*FUNCTION[:3], "x: [1, 90 deg]", FUNCTION[4], FOLLOWER), "7:10 unexpected-unit"),
+    ((*FUNCTION[:2], "function: sin", "x: [30 deg, 150 deg]", FUNCTION[4], FOLLOWER), "7:6 synthesis-equal-values"),
+    ((*FUNCTION[:2], "function: tan", "x: [60 deg, 130 deg]", FUNCTION[4], FOLLOWER), "7:6 synthesis-undefined"),
+    ((*FUNCTION[:2], "function: tan", "x: [0 deg, 90 deg]", FUNCTION[4], FOLLOWER), "7:6 synthesis-undefined"),
+    (
+        (
+            *FUNCTION[:2],
+            "function: sin",
+            "x: [0 deg, 90 deg]",
+            "driver: [60 deg, 120 deg]",
+            f"{FOLLOWER[:11]}100 deg, 160 deg]",
+        ),
+        "8:11 synthesis-short-range",
+    ),
+    ((*FUNCTION[:2], "pairs:"), "6:3 missing-key"),
     ((*FUNCTION[:2], "pairs: [[10 deg, 20 deg], [10 deg, 20 deg], [40 deg, 50 deg]]"), "6:10 synthesis-no-linkage"),
     ((*FUNCTION[:2], "pairs: [[0 deg, 60 deg], [120 deg, 300 deg], [240 deg, 10 deg]]"), "6:10 synthesis-branch"),
 ]
@@ -147,3 +164,37 @@ def test_the_drawing_has_the_lengths_of_the_linkage() -> None:
         b = position(file)["lengths"]["coupler"]
         # The printed angles have ten-thousandths of a degree.
         assert [abs(C - B) for B, C in pins] == pytest.approx([b] * 3, abs=1e-5 * abs(D))
+
+
+@pytest.mark.parametrize(
+    ("function", "x", "driver", "follower", "value"),
+    [
+        ("sin", (0, 90), (105, 165), (40, 100), lambda x: math.sin(math.radians(x))),
+        ("tan", (0, 45), (60, 120), (20, 80), lambda x: math.tan(math.radians(x))),
+    ],
+)
+def test_functions_of_an_angle_are_met_at_three_points(
+    tmp_path: Path,
+    function: str,
+    x: tuple[int, int],
+    driver: tuple[int, int],
+    follower: tuple[int, int],
+    value: Callable[[float], float],
+) -> None:
+    """Close the loop A B C D anew at each point, and at the ends with the follower off by the structural error."""
+    ranges = {"x": x, "driver": driver, "follower": follower}
+    lines = "".join(f"  {key}: [{first} deg, {last} deg]\n" for key, (first, last) in ranges.items())
+    file = tmp_path / "linkage.yaml"
+    file.write_text(f"{HEAD}  task: three-points\n  d: 100 mm\n  function: {function}\n{lines}", encoding="utf-8")
+    solved = position(file)
+    a, b, c, d = (solved["lengths"][name] for name in ("crank", "coupler", "follower", "frame"))
+    low, high = value(x[0]), value(x[1])
+    for k, share in (("1", 0.5 - math.sqrt(3) / 4), ("2", 0.5), ("3", 0.5 + math.sqrt(3) / 4)):
+        y = value(x[0] + share * (x[1] - x[0]))
+        φ = math.radians(driver[0] + share * (driver[1] - driver[0]))
+        ψ = math.radians(follower[0] + (y - low) / (high - low) * (follower[1] - follower[0]))
+        assert solved["pairs"][k] == pytest.approx({"driver": φ, "follower": ψ}, abs=1e-12)
+        assert abs(d + cmath.rect(c, ψ) - cmath.rect(a, φ)) == pytest.approx(b, rel=1e-9)
+    for end, place in enumerate(("1", "4")):
+        φ, ψ = math.radians(driver[end]), math.radians(follower[end]) + solved["errors"][place]
+        assert abs(d + cmath.rect(c, ψ) - cmath.rect(a, φ)) == pytest.approx(b, rel=1e-9)
