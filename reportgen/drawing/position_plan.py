@@ -38,6 +38,8 @@ ARC_OVER = 9.0
 """Length (mm) of an arc on either side of its point."""
 BEYOND_BOTH = 0.7
 """Radius of the arc of the angle at the crank's centre, as a share of the distance to the second end."""
+FAR = 1.5
+"""A circle is drawn with its centre if the radius is less than this multiple of the reach from the crank's centre."""
 BEYOND = 3.0
 """Length (mm) of a normal beyond the centre."""
 
@@ -232,8 +234,8 @@ class SwingMarks:
     """Construction of both ends of a pin's path (m): the crank's `centre`, the rocker's `pivot`, the pin's `ends`.
 
     `angles` are the names of the angles between the lines to the ends, seen from both. A slider has no pivot and only
-    the angle at the crank's centre. `circle` is the centre of a circle through the
-    ends and the crank's centre, with its name, or None.
+    the angle at the crank's centre. `circle` is the centre O of a circle through the ends and the crank's centre, with
+    the name of its radius, or None.
     """
 
     centre: complex
@@ -247,7 +249,7 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
     """Draw the construction of `SwingMarks` at `scale` mm of paper per m.
 
     It has the lines from the crank's centre to both ends with arcs about it, both named angles, and the arc of the
-    circle, if there is one.
+    circle, if there is one, with its centre if that is near the mechanism.
     """
     centre = marks.centre * scale
     ends = [end * scale for end in marks.ends]
@@ -273,6 +275,10 @@ def swing_marks(marks: SwingMarks, scale: float) -> Canvas:
         start, over = cmath.phase(ends[0] - at), ARC_OVER / radius
         items.append(Arc(at, radius, start + turns[0] - over, start + turns[-1] + over, style.NORMAL))
         requests.append(label(at + radius * polar(start + turns[0] - over), marks.circle[1], size=style.SMALL))
+        reach = max(abs(one - centre) for one in (*ends, *(place for place, _ in seen_from)))
+        if radius < FAR * reach:
+            items += [style.point(at), Line(at, centre, style.CONSTRUCTION)]
+            requests.append(label(at, Symbol("O"), gap=1.2))
     return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
