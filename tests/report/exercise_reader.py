@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from tests.report.task_reader import Task, typed
+from tests.report.printed_task import Task, typed
 
 File = dict[str, Any]
 GREEK = {"ω": "omega", "ε": "epsilon"}
