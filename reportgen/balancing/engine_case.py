@@ -46,7 +46,7 @@ class EnginePage(PlacesPage[SolvedEngine]):
             if len(case.cylinders) > WORKED:
                 lines[name] = []
         return {
-            "words": case.words,
+            **self.shared_names,
             "given": case.given,
             "several": len(case.cylinders) > 1,
             "inline": case.given.is_inline,
@@ -66,10 +66,6 @@ class EnginePage(PlacesPage[SolvedEngine]):
             "couples_are_closed": self.is_nothing("orders.U.M"),
             "nothing_turns_against": self.is_nothing(orders_ids.resultant("q", 1)),
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     def is_nothing(self, id: str) -> bool:

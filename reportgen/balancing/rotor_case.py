@@ -80,7 +80,7 @@ class RotorPage(PlacesPage[SolvedRotor]):
             if len(case.weighed) > WORKED:
                 lines[name] = lines.get(name, [])[:1]
         return {
-            "words": case.words,
+            **self.shared_names,
             "given": case.given,
             "several": len(case.masses) > 1,
             "every_line": len(case.weighed) <= WORKED,
@@ -111,10 +111,6 @@ class RotorPage(PlacesPage[SolvedRotor]):
             "closing_moments": self.closing("V", case.moments) if case.two_planes or case.finds else "",
             "closing_unbalances": self.closing("U", case.masses),
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     @property

@@ -102,7 +102,7 @@ class CamPage(DesignPage[SolvedCam]):
         exceeded, undercut = self.exceeded, self.undercut
         all_hold = all(one.holds for one in self.required)
         return {
-            "words": case.words,
+            **self.shared_names,
             "full": self.full,
             # kind of the cam
             "translating": cam.translating,
@@ -152,12 +152,8 @@ class CamPage(DesignPage[SolvedCam]):
             # symbols, numbers, lines, figures
             "sheet": {name: case.printed.known(quantities) for name, quantities in case.printed.lines.items()},
             "value": self.value,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
             "angle": lambda angle: Value(Number(math.degrees(angle), ANGLE, "°")),
             "length": lambda size: Value(Number(size * MM, 3, self.case.ledger.printed_unit("mm"))),
-            "figure": self.figure,
         }
 
     @property

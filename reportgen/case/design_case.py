@@ -162,6 +162,17 @@ class DesignPage(ABC, Generic[Designed]):
     def names(self) -> dict[str, Any]:
         """Return all names that the templates may use."""
 
+    @property
+    def shared_names(self) -> dict[str, Any]:
+        """The names that the templates of all designs use: its words, and what writes symbols, lines and figures."""
+        return {
+            "words": self.case.words,
+            "quantity": self.quantity,
+            "lines": self.lines,
+            "math": self.math,
+            "figure": self.figure,
+        }
+
     def asked(self, asked: AskedFor) -> dict[str, Any]:
         """Return the further names that the task may use, from its questions."""
         return {}

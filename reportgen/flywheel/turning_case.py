@@ -56,7 +56,7 @@ class TurningPage(DesignPage[SolvedTurning]):
         tables = [one for one in (given.driving, given.resisting) if one is not None and one.nodes]
         curves = [one for one in (given.driving, given.resisting) if one is not None and one.terms]
         return {
-            "words": case.words,
+            **self.shared_names,
             "given": given,
             "data": self.data_table(self.given_rows(self._not_in_data)),
             "torque_table": self.torque_table if tables else "",
@@ -80,10 +80,6 @@ class TurningPage(DesignPage[SolvedTurning]):
             "lowest": str(lowest),
             "energy_table": self.energy_table,
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     @property

@@ -43,13 +43,9 @@ class FrictionPage(DesignPage["FrictionCase"]):
     def names(self) -> dict[str, Any]:
         case, written = self.case, self.case.printed
         return {
-            "words": case.words,
+            **self.shared_names,
             "data": self.data,
             "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
             "holds": case.holds,
         }
 

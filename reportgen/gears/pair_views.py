@@ -40,7 +40,7 @@ class PairPage(DesignPage[SolvedPair]):
     def names(self) -> dict[str, Any]:
         case, chosen = self.case, self.case.chosen
         return {
-            "words": case.words,
+            **self.shared_names,
             "full": self.full,
             "rule": chosen.rule,
             "sought": self.sought,
@@ -56,10 +56,6 @@ class PairPage(DesignPage[SolvedPair]):
             "checks": self.checks,
             "broken": tuple((name, wheel) for name, wheel, _, _ in chosen.broken()),
             "value": self.value,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     @staticmethod

@@ -57,7 +57,7 @@ class TrainPage(DesignPage[SolvedTrain]):
         case, given, choice = self.case, self.case.given, self.case.choice
         written, rows = case.printed, min(self.rows, len(choice.sets))
         return {
-            "words": case.words,
+            **self.shared_names,
             "given": given,
             "choice": choice,
             "single": case.scheme.single,
@@ -80,11 +80,7 @@ class TrainPage(DesignPage[SolvedTrain]):
             "rates_table": self.rates_table,
             "sheet": {name: written.known(quantities) for name, quantities in written.lines.items()},
             "value": self.value,
-            "quantity": self.quantity,
-            "lines": self.lines,
             "formulas": lambda quantities: Equation(tuple(Chain(written.chain(id).parts[:2]) for id in quantities)),
-            "math": self.math,
-            "figure": self.figure,
         }
 
     @property

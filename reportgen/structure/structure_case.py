@@ -50,7 +50,7 @@ class StructurePage(DesignPage[SolvedStructure]):
         lines: dict[str, list[str]] = {name: [] for name in LINES}
         lines |= {name: list(case.printed.known(quantities)) for name, quantities in case.printed.lines.items()}
         return {
-            "words": case.words,
+            **self.shared_names,
             "driver": str(given.driver),
             "pair_table": self.pair_table,
             "has_points": bool(case.placed.joints),
@@ -68,10 +68,6 @@ class StructurePage(DesignPage[SolvedStructure]):
             "driver_table": self.driver_table if case.other_drivers else "",
             "driver_classes": self.equation(ids.class_by(link) for link in case.other_drivers),
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     def equation(self, quantities: Iterable[str]) -> tuple[Equation, ...]:

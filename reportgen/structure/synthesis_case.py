@@ -65,7 +65,7 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
         chosen = number_of(case.chosen)
         single = len(case.solved) == 1
         return {
-            "words": case.words,
+            **self.shared_names,
             "rocker": case.has_rocker,
             "searched": given.best is not None,
             "data": self.data,
@@ -84,10 +84,6 @@ class SynthesisPage(DesignPage[SolvedSynthesis]):
             "poor": case.is_poor,
             **self.better_length(),
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     def solution(self, place: PivotPlace, lines: Mapping[str, list[str]]) -> SolutionView:

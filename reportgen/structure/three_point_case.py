@@ -61,7 +61,7 @@ class ThreePointPage(DesignPage[SolvedThreePoints]):
         lines |= {name: list(written.known(quantities)) for name, quantities in written.lines.items()}
         errors = [lines.get(f"error{number}", []) for number in PLACES]
         return {
-            "words": case.words,
+            **self.shared_names,
             "data": self.data,
             "of_function": case.follows_function,
             "function": self.function,
@@ -80,10 +80,6 @@ class ThreePointPage(DesignPage[SolvedThreePoints]):
             "permitted": synthesis_ids.PERMITTED,
             "poor": case.is_poor,
             "sheet": lines,
-            "quantity": self.quantity,
-            "lines": self.lines,
-            "math": self.math,
-            "figure": self.figure,
         }
 
     @property
