@@ -445,9 +445,8 @@ def wording(id: str, symbol: Symbol) -> tuple[str, dict[str, str]]:
     family, parts = _row_and_words(id)
     index = family.index(parts)
     points = ids.points(symbol.sub if family.kind in ("velocity", "acceleration") else index)
-    link, acted_on = (
-        ids.linked(parts["joint"]) if "joint" in parts else (parts.get("link", parts.get("wheel", index)), "")
-    )
+    own = parts.get("link", parts.get("wheel", index))
+    link, acted_on = ids.linked(parts["joint"]) if "joint" in parts else (own, "")
     words = {
         "line": lowered(index),
         "link": link,
@@ -461,8 +460,7 @@ def wording(id: str, symbol: Symbol) -> tuple[str, dict[str, str]]:
     }
     name = f"{family.name}.{parts['part']}" if family.letter and parts.get("part") else family.name.format(**parts)
     if family.name == "acceleration" and parts.get("part") in ("n", "t") and len(points) == 1:
-        # A component of the acceleration of a point itself, for example of the crank's pin.
-        name = f"{name}.own"
+        name = f"{name}.own"  # of a point itself, for example of the crank's pin
     return (f"{name}.relative" if name in _OF_POINTS and len(points) > 1 else name), words
 
 
@@ -481,8 +479,7 @@ def words_of(table: Mapping[str, str], id: str, kind: str, symbol: Symbol) -> It
 
 @lru_cache(maxsize=64)
 def _keys_by_name(keys: tuple[str, ...]) -> Mapping[str, str]:
-    """Return the first key of a table that names each quantity."""
-    return {name: key for key in reversed(keys) for name in key.split(", ")}
+    return {name: key for key in reversed(keys) for name in key.split(", ")}  # the first one counts
 
 
 @lru_cache(maxsize=4096)
