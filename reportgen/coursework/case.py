@@ -300,10 +300,10 @@ class Coursework(CaseOfParts):
         """Yield the sentences on the symbols of a part with its index, and on its points that share a name with earlier
         ones.
         """
-        words, beside = self.words["coursework"], "_of_machine" if self._gives(member) else ""
-        for key, symbols in (("letters", list(letters.values())), ("points", self._points(member))):
+        keys = ("letters_of_machine", "points_of_machine") if self._gives(member) else ("letters", "points")
+        for key, symbols in zip(keys, (list(letters.values()), self._points(member)), strict=True):
             if symbols:
-                lead = str(words[f"{key}{beside}"]).format(index=member.index)
+                lead = str(self.words["coursework"][key]).format(index=member.index)
                 yield Paragraph((Text(lead), *listed(map(InlineMath, symbols)), Text(".")))
 
     def _taken(self, member: PartCase) -> Iterator[Paragraph | Equation]:
