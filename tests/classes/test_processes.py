@@ -330,7 +330,11 @@ def test_a_batch_that_is_ended_leaves_no_process_and_no_folder(
         process.stderr.readline()
         assert any(temporary.iterdir())
         process.send_signal(getattr(signal, end))
-        assert process.wait(20) == code
+        try:
+            assert process.wait(20) == code
+        finally:
+            # Nobody waits for one that does not end.
+            process.kill()
         deadline = time.monotonic() + 30
         while lives(process.pid):
             assert time.monotonic() < deadline
