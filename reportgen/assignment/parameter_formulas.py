@@ -45,7 +45,7 @@ class Amount:
 
 
 ROUNDING = 1e-14
-"""What the arithmetic of floats leaves of a value that cancels, in proportion to its operands: it is taken as 0."""
+"""Relative rounding error of a sum or a sine. A smaller result, in proportion to its operands, counts as 0."""
 
 
 def _sine(angle: float) -> float:

@@ -208,7 +208,7 @@ def test_the_key_itself_is_right() -> None:
 
 
 def test_a_wrong_length_costs_its_mark_once(tmp_path: Path) -> None:
-    """The student's machine is solved as an assignment of its own, with the wrong length as a datum."""
+    """A separate assignment, with the wrong length as a datum, gives the values that the student should get."""
     marking = marked(carried_forward(tmp_path, 88.0))
     wrong = [cell.id for cell in marking.cells if cell.verdict is Verdict.wrong]
     assert wrong == ["synthesis.coupler.2"]

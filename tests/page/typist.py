@@ -97,7 +97,7 @@ class Typist:
     gap: float = 0.0
     """From key to key (s)."""
     halves: set[str] = field(default_factory=set)
-    """What was typed before a rest: on a busy machine, there may be one between any two keys."""
+    """Beginnings of texts that were followed by a rest. On a busy computer, any two keys can be that far apart."""
 
     def type(self, text: str) -> None:
         last = time.monotonic()
@@ -198,7 +198,7 @@ class Model:
         self.typing = None
 
     def pause(self, there: str, halves: Collection[str]) -> None:
-        """What is typed, or what was typed before it in the same field, has been written after a rest without a key.
+        """Enter that the form has written the typed text, or an earlier one of the same field, after a rest.
 
         Of a text that was typed on, only those `halves` are written that had a rest after them.
         """
