@@ -26,6 +26,7 @@ from reportgen.drawing.animation import (
     Still,
     Track,
 )
+from reportgen.machine.analysis import Analysis
 from reportgen.page.animation_panel import PanelWriter, samples
 from reportgen.page.motion_samples import Samples
 
@@ -88,7 +89,8 @@ class Resident:
         case = type(self.case)(replace(assignment, parts=()))
         case.__dict__.update({name: getattr(self.case, name) for name in KEPT})
         sampling = Samples(case, self.samples.kept, seen)
-        if not sampling.reachable:
+        # The words and symbols are those of the current machine, which has none for a load or topic that comes new.
+        if not sampling.reachable or _named(sampling.analysis) != _named(self.samples.analysis):
             return b""
         panes = tuple(sampling.panes())
         moved = grouped(panes, tuple(sampling.values()) if seen is None else ())
@@ -149,6 +151,11 @@ class Resident:
             elif values[place].tobytes() != part.tobytes() and not _alike(values[place], part):
                 return False
         return True
+
+
+def _named(analysis: Analysis) -> tuple[frozenset[str], frozenset[str]]:
+    """Return the names of the topics of a machine and of its loads."""
+    return frozenset(analysis.machine.topics), frozenset(load.name for load in analysis.loads)
 
 
 def _alike(samples: np.ndarray, others: np.ndarray) -> bool:
