@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import datetime
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 from itertools import groupby, pairwise
@@ -43,6 +44,8 @@ CAPITAL, OUT = 2.4, 0.8
 """Height of capitals there, and largest overshoot of a formula above them or below the line (mm)."""
 CELL, CELL_INSET = 10.0, 3.0
 """Font size in tables (points), and the total white space on both sides of a cell (mm)."""
+SINGLE = re.compile(r'#("(?:[^"\\]|\\.)*")')
+"""A single string in markup."""
 UNDATED = datetime.date(1980, 1, 1)
 """Date of a file without a known date, equal to that of the parts of a Word file."""
 
@@ -406,7 +409,13 @@ class _Blocks:
         return True
 
     def cell(self, cell: tree.Cell, spanned: str) -> str:
+        """Return a cell as content, or as a string if it is plain text.
+
+        The typesetter lays out equal strings once, but content of each place in the source anew.
+        """
         body = self.content(cell.inlines)
+        if single := SINGLE.fullmatch(body, 1, len(body) - 1):
+            body = single[1]
         return f"{spanned}({cell.span},{body})" if cell.span > 1 else body
 
     def rows(self, rows: Sequence[Sequence[Scene]], block: tree.Figure) -> str:

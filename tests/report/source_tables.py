@@ -15,8 +15,9 @@ from tests.report.source_lines import STRING, plain, typst_formulas
 _HEADING = re.compile(r"#N\(\d,\"[^\"]*\",\[(.*?)\]\)")
 _AT = re.compile(r"(?:vị trí|position) (\w+)$")
 """How a heading ends that is of one position."""
-_HEADS = (['#"Vị trí"'], ['#"Position"'])
-_CELL = re.compile(rf"\[((?:{STRING}|[^\"\[\]])*)\]")
+_HEADS = (['"Vị trí"'], ['"Position"'])
+_CELL = re.compile(rf'\[((?:{STRING}|[^"\[\]])*)\]|({STRING})(?=,)')
+"""Content in brackets, or a string."""
 _LEADING = re.compile(rf"-?{NUMBER}")
 _SYMBOL = re.compile(r"\$(?:abs\((.*)\)|(.*))\$")
 _HEARD = re.compile(rf'#M\({STRING},(\$(?:{STRING}|[^"$])*\$)\)')
@@ -81,10 +82,14 @@ def extremes(source: str) -> Iterator[tuple[str, Decimal]]:
     for block in _printed(source):
         if block.endswith('#label("tab.extremes")'):
             for row in block.split("\n")[1:]:
-                for symbol, cell in pairwise(_CELL.findall(row)):
+                for symbol, cell in pairwise(_cells(row)):
                     name, number = _SYMBOL.fullmatch(symbol), _LEADING.match(plain(_words(cell)))
                     if name and number:
                         yield name[1] or name[2], abs(Decimal(number[0]))
+
+
+def _cells(row: str) -> list[str]:
+    return [content or string for content, string in _CELL.findall(row)]
 
 
 def _printed(source: str) -> list[str]:
@@ -99,11 +104,11 @@ def _of_table(block: str, position: str) -> Iterator[tuple[str, str, str]]:
     """
     first, *rows = block[block.index("#R(") :].split("\n")
     head, _, units = first.partition(",((")[2].partition("),([],")
-    heads = _CELL.findall(head)
+    heads = _cells(head)
     at_positions = heads[:1] in _HEADS
     in_mm = at_positions and not units
     for row in rows:
-        found = _CELL.findall(row)
+        found = _cells(row)
         if at_positions and found:
             pairs = zip(heads[1:], found[1:], strict=False)
             for symbol, number in _numbers(pairs):
