@@ -354,19 +354,29 @@ EVERY = 5
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
     """Yield subject, command, language, engine, extent: first briefly in the file's language, then by the languages.
 
-    Of the product of all settings, each subject and command has every pair at least once: every language, every engine
-    in every extent; and all subjects together have every language with every engine and extent.  A language that no
-    native speaker has read has the engine and extent that are the usual ones alone.  All cases of a language follow
-    each other, because few calculations are cached.
+    Each subject and command has the default language and a second one, which is the next one with the next command and
+    the next subject, so that each subject and each command has all languages; reports are made in every language that
+    is no draft. A language that no native speaker has read has the usual engine and extent only. All cases of a
+    language follow each other, because few calculations are cached.
     """
     for subject in subjects():
         for command in COMMANDS:
             yield subject, command.__name__, OWN, "typst", "short"
-        for language in (DEFAULT_LANGUAGE,) if subject == ATLAS else languages():
+        for language in languages():
             for command in COMMANDS:
-                if command not in BY_FILE or language == DEFAULT_LANGUAGE:
+                if language in _spoken(command, subject):
                     for engine, extent in _settings(command, subject, language):
                         yield subject, command.__name__, language, engine, extent
+
+
+def _spoken(command: Callable[[Desk], None], subject: str) -> set[Language]:
+    """Return the languages of a command for a subject."""
+    if command in BY_FILE or subject == ATLAS:
+        return {DEFAULT_LANGUAGE}
+    others = [language for language in languages() if language != DEFAULT_LANGUAGE]
+    turn = COMMANDS.index(command) + [*subjects()].index(subject)
+    native = {language for language in languages() if not setting_of(language).is_draft()}
+    return {DEFAULT_LANGUAGE, others[turn % len(others)], *(native if command in BY_EXTENT else ())}
 
 
 def _settings(command: Callable[[Desk], None], subject: str, language: Language) -> Iterator[tuple[api.Engine, Extent]]:

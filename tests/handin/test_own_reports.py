@@ -59,12 +59,14 @@ LEFT |= {
 """Why a report goes without a quantity that is asked for: the reason by the extent and a pattern of ids."""
 
 
+FIRST_OF_KIND = {path.relative_to(ROOT).with_suffix("").as_posix() for path in built.OF_EACH_KIND}
 TURNS = [
     (name, languages()[(number + turn) % len(languages())], extent)
     for number, name in enumerate(SAMPLES)
     for turn, extent in enumerate(EXTENTS)
+    if name in FIRST_OF_KIND or turn == number // len(languages()) % len(EXTENTS)
 ]
-"""Each sample in both extents; the languages take turns, so that each kind has several."""
+"""The first sample of each kind in both extents, the others in one; the languages and extents take turns."""
 
 
 @pytest.mark.parametrize(("name", "language", "extent"), matrix(dict.fromkeys([*FIRST, LONGEST, *TURNS]), FIRST))

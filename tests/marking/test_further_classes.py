@@ -165,10 +165,10 @@ def test_mistakes_of_a_class_at_its_instants_are_told(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("spec", "count", "made", "asked"),
     [
-        (FOUR_BAR, 12, REVERSED, "spring.l.1"),
+        (FOUR_BAR, 6, REVERSED, "spring.l.1"),
         (SHAPER, 3, (), "face.05.1"),
-        (FRICTION, 12, RUBBING, "friction.M.12"),
-        (SLOTTER, 12, SLIDING, "a.A3A.k"),
+        (FRICTION, 6, RUBBING, "friction.M.12"),
+        (SLOTTER, 6, SLIDING, "a.A3A.k"),
         (PRESS, 12, SPECIAL, "v.S24"),
         (FOUND, 12, STROKES, "l.AB"),
     ],

@@ -154,7 +154,7 @@ def test_levels_lie_between_the_corners_of_a_characteristic() -> None:
 # --- many machines ------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", matrix(range(60), (0, 1)))
+@pytest.mark.parametrize("seed", matrix(range(30), (0, 1)))
 def test_starts_and_stops_of_machines_made_at_random(seed: int) -> None:
     """Machines of many sizes under motors and brakes of any strength, as far as the first jump of a load."""
     machine, added, _ = made_at_random(seed)
