@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Callable, Collection, Mapping, Sequence
 from pathlib import Path
 
@@ -27,7 +28,7 @@ BY_SIZE = ("A3", "A2", "A1", "A0")
 USUAL = ("A1", "A0")
 """Paper sizes, in order of preference, of sets that no single sheet holds."""
 STEPS = 20
-"""Number of shorter cranks that are tried if a plate does not fit."""
+"""If a plate does not fit, shorter cranks are tried in steps of such a part of its length."""
 
 
 def drawing_sheets(
@@ -149,10 +150,12 @@ def _fault(
         arguments |= {"larger": larger[0], "hint": "larger-sheet"}
     if redrawn is not None:
         length, remake = redrawn
-        shorter = (math.floor(length * (1 - step / STEPS)) for step in range(1, STEPS))
-        crank = next((one for one in shorter if one > 0 and _holds(remake(one), size, form)), 0)
-        if crank:
-            arguments |= {"crank": str(crank), "hint": "larger-sheet-or-crank" if larger else "shorter-crank"}
+        shorter = [crank for step in range(1, STEPS) if (crank := math.floor(length * (1 - step / STEPS))) > 0]
+        # Plates grow with the crank, so the longest that fits is found by halving.
+        longest = bisect_left(shorter, True, key=lambda crank: _holds(remake(crank), size, form))
+        if longest < len(shorter):
+            hint = "larger-sheet-or-crank" if larger else "shorter-crank"
+            arguments |= {"crank": str(shorter[longest]), "hint": hint}
     findings = [Finding("plate-too-large", ("drawing", "crank"), arguments)]
     return as_error(placed(read_source(case.assignment.source), findings), case.assignment.language)
 
