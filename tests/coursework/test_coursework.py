@@ -159,7 +159,7 @@ def of_designs() -> frozenset[Symbol]:
 
 
 @proof
-@pytest.mark.parametrize("file", sorted(ASSIGNMENTS.glob("*.yaml")), ids=lambda file: file.stem)
+@pytest.mark.parametrize("file", built.TYPESET, ids=lambda file: file.stem)
 def test_a_machine_knows_its_symbols_without_its_report(file: Path) -> None:
     """Whatever its report has of the symbols of any part's quantities: keys are made without the report."""
     case = built.case(file)
