@@ -57,6 +57,7 @@ def documentation() -> Path:
     return _packed("docs", "docs")
 
 
+@cache
 def _packed(name: str, beside: str) -> Path:
     package = Path(__file__).resolve().parents[1]
     packed = package / name

@@ -21,6 +21,7 @@ import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
@@ -69,6 +70,8 @@ from reportgen.machine.load_laws import FULL_TURN, STEPS
 
 SPEC_KEYS = ("variants", "salt")
 """Keys of a spec for a class, from which assignments are drawn; no assignment has them."""
+MOST_KINDS = 64
+"""Number of kinds whose data are kept; a machine of the user's folder is another one after each change of its file."""
 _KIND = re.compile(r"(?m)^kind: (\S+)$")
 
 
@@ -122,7 +125,12 @@ def ignored_machines(language: Language | None = None) -> list[Problem]:
 
 def kind(name: str) -> Kind:
     """Return the data of a kind that the reader of assignment files needs; raises `KeyError`."""
-    machine = module(name)
+    return _kind_of(name, module(name))
+
+
+@lru_cache(MOST_KINDS)
+def _kind_of(name: str, machine: Any) -> Kind:
+    """Return the data of a kind by its module. Schemas are kept by these data, and some checks are made anew."""
     shared = getattr(machine.Parameters, "checks", tuple)
     takes_topics = issubclass(machine.Parameters, TopicParameters)
     return Kind(

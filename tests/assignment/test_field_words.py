@@ -93,6 +93,11 @@ def _internal(part: Any) -> Iterator[Any]:
                 yield from _internal(value)
 
 
+def test_the_schema_of_a_kind_is_made_once() -> None:
+    """A form asks for it with each change."""
+    assert [kind for kind in KINDS if file_schema(catalogue.kind(kind)) is not file_schema(catalogue.kind(kind))] == []
+
+
 @pytest.mark.parametrize("language", LANGUAGES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_file_to_begin_with_says_what_its_keys_are(kind: str, language: Language) -> None:
