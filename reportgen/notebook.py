@@ -5,7 +5,7 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from decimal import Decimal
 from functools import cached_property
 from itertools import product
@@ -22,6 +22,7 @@ from reportgen.assignment.fields import Quantity
 from reportgen.assignment.reading import name_faults
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.base.files import put_file, reported
+from reportgen.base.records import record
 from reportgen.base.units import Given, Language, read_unit
 from reportgen.base.words import as_error, language_of, unknown, word
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source, read_text
@@ -281,7 +282,7 @@ def _unit_of(annotation: Any, *metadata: Any) -> str:
     return next((unit for part in get_args(annotation) if (unit := _unit_of(part))), "")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShownFigure:
     """A figure of a report: a drawing, several drawings together, or a moving figure."""
 
@@ -330,7 +331,7 @@ class ShownFigure:
         return figures.drawn([self.scene], self.language)["svg"][0].decode()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ResultTable:
     """Results with a row per position; a column is named by the path to its number in the JSON of `solve`."""
 

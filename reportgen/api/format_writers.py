@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,6 +14,7 @@ from reportgen.assignment import Assignment
 from reportgen.base.languages import setting_of
 from reportgen.base.pdf_standards import STANDARDS, Standards
 from reportgen.base.progress import step
+from reportgen.base.records import record
 from reportgen.base.template_folders import school_folder
 from reportgen.case import bounded
 
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
     from reportgen.writers.pdflatex import Ahead
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ReportJob:
     """A report to write: its case and its tree; for a typesetter also the letter, and the opening read `ahead`."""
 
@@ -96,7 +97,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
 # --- keys -----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KeyJob:
     """An answer key to write, and its case."""
 
@@ -145,7 +146,7 @@ def dated(tree: Document, case: Case) -> Document:
 # --- drawing sheets -------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SheetJob:
     """A drawing sheet to write, and the case that it shows."""
 

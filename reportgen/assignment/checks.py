@@ -6,7 +6,6 @@ They read the plain content rather than the models where possible, so that they 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
 from statistics import mode
@@ -14,6 +13,7 @@ from typing import Any
 
 from reportgen.assignment.common import Check, Draft, Labels, labels_of, named_worked, number_of
 from reportgen.base.errors import Finding, Where
+from reportgen.base.records import record
 from reportgen.base.template_folders import is_school, school_strays
 from reportgen.base.units import QuantityFault, read_number, read_quantity
 
@@ -53,7 +53,7 @@ def instants(draft: Draft) -> Iterator[Finding]:
             yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OneOf:
     """Check that the section has one of several keys with the same meaning (at most one unless `required`).
 
@@ -89,7 +89,7 @@ def one_of(section: str, *names: str, required: bool = True, form: tuple[str, st
     return OneOf(section, names, required, form)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SameLength:
     """Check that rows have as many values as the list `key`; those that differ from most of them are at fault."""
 
@@ -116,7 +116,7 @@ def same_length(section: str, key: str, rows: Sequence[str]) -> SameLength:
     return SameLength(section, key, tuple(rows))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Increasing:
     """Check that a list increases strictly from `first` to `last` (in `unit`)."""
 

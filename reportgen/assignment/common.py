@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -26,6 +26,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding, UnknownNameError
+from reportgen.base.records import record
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
@@ -145,7 +146,7 @@ class SheetSection(Part):
     course: OneLine | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Draft:
     """An assignment during checking: plain content, and the sections that are valid on their own."""
 
@@ -167,7 +168,7 @@ Labels = Callable[[Any, Positions], Sequence[str]]
 """Function that returns the labels of the positions of the cycle, from the parameters and the positions of a turn."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Kind:
     """Data of a kind of machine that the reader needs.
 
@@ -217,7 +218,7 @@ class Kind:
         return self.has_positions or POSITIONS in self.base.model_fields
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Assignment:
     """A valid assignment file: text kept as typed, quantities in SI beside their typed text.
 
@@ -319,7 +320,7 @@ class Assignment:
         return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SolvedLength:
     """A length that a part finds: its id in the part, and the length as the part prints it, with its unit."""
 
@@ -327,7 +328,7 @@ class SolvedLength:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LengthOfPart:
     """A length that a machine takes from a part: the machine's key, the part by its index, the id in the part."""
 
@@ -336,7 +337,7 @@ class LengthOfPart:
     id: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TakenDatum:
     """A value that a part takes from the machine: its key, the path of the machine's value, the ratio as typed."""
 
@@ -345,7 +346,7 @@ class TakenDatum:
     times: str = "1"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AssignedPart:
     """A part of a coursework with its assignment.
 

@@ -10,12 +10,12 @@ import datetime
 import math
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import languages, school_folder, school_strays, schools, templates
 from reportgen.base.timestamps import moment
 from reportgen.base.typing_mistakes import in_quotes
@@ -48,7 +48,7 @@ def fault(code: str, **arguments: str) -> PydanticCustomError:
     return PydanticCustomError("fault", "{code}", {"code": code, **arguments})
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reader:
     """Base of the readers: `read` makes a value of the text in the file, `schema` describes that text."""
 
@@ -67,7 +67,7 @@ class Reader:
         return self.schema()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Interval:
     """Range of a number; `above` and `below` are open ends, `least` and `most` closed ones.
 
@@ -109,7 +109,7 @@ class Interval:
         return {key: end for key, end in ends if math.isfinite(end)}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quantity(Reader):
     """A number with a unit of the dimension of `unit`, its value in `unit` within `interval`."""
 
@@ -126,7 +126,7 @@ class Quantity(Reader):
         return {**typed, UNIT_KEY: self.unit, RANGE_KEY: self.interval.schema()}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SchoolFolder(Reader):
     """The folder of a school's own words beside those of the languages, such as templates/tnut/ for `tnut`."""
 
@@ -143,7 +143,7 @@ class SchoolFolder(Reader):
         return {"type": "string", "pattern": f"^{_SLUG}$"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LanguageName(Reader):
     """A language that has a folder of words."""
 
@@ -156,7 +156,7 @@ class LanguageName(Reader):
         return {"type": "string", "enum": list(languages())}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class UnitOf(Reader):
     """The name of a unit of the dimension of `unit`: one of it, as a `Given`."""
 
@@ -169,7 +169,7 @@ class UnitOf(Reader):
         return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit], UNIT_NAME_KEY: self.unit}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Ratio(Reader):
     """A pure number, `0.35` or `1/3.6`; with `inverse`, a value of 1 or more is read as the inverse ratio."""
 
@@ -191,7 +191,7 @@ class Ratio(Reader):
         return {"anyOf": [number, typed]}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Decimal(Reader):
     """A pure number of a table: no unit, no fraction."""
 
@@ -206,7 +206,7 @@ class Decimal(Reader):
         return {"type": "number", **self.interval.schema()}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Percent(Reader):
     """A share from 0 to 1, written `80 %` or `0.8`."""
 
@@ -226,7 +226,7 @@ class Percent(Reader):
         }
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Whole(Reader):
     """A whole number from `least` to `most`."""
 
@@ -244,7 +244,7 @@ class Whole(Reader):
         return {"type": "integer", "minimum": self.least, "maximum": self.most}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Flag(Reader):
     """`true` or `false`."""
 
@@ -257,7 +257,7 @@ class Flag(Reader):
         return {"type": "boolean"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TypedText(Reader):
     """One line of text, kept as typed, without typographic quotation marks around the whole of it."""
 
@@ -275,7 +275,7 @@ class TypedText(Reader):
         return {"type": ["string", "number", "boolean", "null"], "maxLength": LONGEST_TEXT}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Day(Reader):
     """A date, `2011-03-24`."""
 
@@ -292,7 +292,7 @@ class Day(Reader):
         return {"type": ["string", "null"], "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$", "format": "date"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Until(Reader):
     """A moment until which something is valid, `2026-11-20 23:59`; a date alone means the end of that day.
 
@@ -311,7 +311,7 @@ class Until(Reader):
         return {"type": "string"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class WorkedPositions(Reader):
     """Positions to write out in full: a list of numbers from 1 and of labels, or "all" (None).
 
@@ -362,7 +362,7 @@ def quantity(unit: str, **ends: float) -> Quantity:
     return Quantity(unit, Interval(**ends))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Either(Reader):
     """A quantity of one dimension or of another: the angle of a crank, or the displacement of a slider."""
 
@@ -385,7 +385,7 @@ FIND = "find"
 """Word in place of a quantity that the program is to find."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NumberOrAngle(Reader):
     """A pure number, or an angle with its unit: the argument of ln x or of sin x."""
 
@@ -413,7 +413,7 @@ def _number_or_quantity(text: str) -> Given:
     return read_ratio(text, fractions=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sought(Reader):
     """A quantity, or None for `find`."""
 

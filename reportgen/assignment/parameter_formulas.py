@@ -11,9 +11,9 @@ import math
 import re
 import warnings
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
+from reportgen.base.records import record
 from reportgen.base.units import NUMBER, Dimension, Given, scale
 
 LONGEST_FORMULA = 120
@@ -31,7 +31,7 @@ PLAIN: Dimension = ()
 ANGLE = scale("rad")[1]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Amount:
     """A value in SI units with its dimension."""
 
@@ -91,7 +91,7 @@ class FormulaError(ValueError):
         self.arguments = arguments
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Formula:
     """A parsed formula: its text, its tree, its quantities as typed, and the names of its parameters."""
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.drawing import Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import Fact, PaperLength, direction, fact
@@ -21,7 +21,7 @@ ARM = 1.0
 """Half the width of an arm (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CounterweightDisc:
     """A counterweight: its centre and the centre of its link (m), its mass (kg), its label."""
 

@@ -8,9 +8,10 @@ at crank and rocker are zero.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Literal
 
+from reportgen.base.records import record
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 
 BESIDE = 1e-12
@@ -20,7 +21,7 @@ CounterweightRule = Literal["rms", "max", "rotating", "share"]
 """Rule by which a counterweight on the crank is chosen."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Balancing:
     """Balancing in a report: the shaking force alone, a counterweight on the crank, or counterweights on the `links`.
 
@@ -34,7 +35,7 @@ class Balancing:
     radius: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Counterweight:
     """A counterweight on a link: U = m_c r_c e^{iψ} (kg·m) in the link's frame, `radius` r_c (m) from its pivot."""
 
@@ -61,7 +62,7 @@ def balanced(linkage: Linkage, weights: Iterable[Counterweight]) -> Linkage:
     return replace(linkage, points=(*linkage.points, *points), inertias=(*linkage.inertias, *bodies))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CrankRod:
     """A slider's rod on the crank as two point masses: m_A turns with the pin, m_B reciprocates with the slider.
 

@@ -9,11 +9,11 @@ each of half its size.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.balancing.counterweights import CrankRod, crank_rods
+from reportgen.base.records import record
 from reportgen.machine import GROUND, Crank, Guide, Linkage
 
 SAME = 1e-9
@@ -21,7 +21,7 @@ SAME = 1e-9
 FORWARD, BACKWARD = 1, -1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class EngineCylinder:
     """A cylinder in line with the crank's centre: its slider, its angle β and its pin's angle ψ on the crank (rad)."""
 
@@ -34,7 +34,7 @@ class EngineCylinder:
         return complex(np.exp(1j * (self.bank + sense * order * (self.pin - self.bank))))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Engine:
     """Equal cylinders: crank r and rod l (m), and the mass that reciprocates in each (kg)."""
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, Quantity, Reader, RotationalSpeed, quantity
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
@@ -22,7 +22,7 @@ BEARINGS = ("C", "D")
 FIND = "find"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SoughtQuantity(Reader):
     """A quantity, or `find` for one that balance determines, whose value is nan."""
 

@@ -26,6 +26,7 @@ from reportgen.balancing.counterweights import (
     turning_part,
 )
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import record
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
 from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
@@ -196,7 +197,7 @@ def seen_from_crank(machine: Machine) -> CrankCurve:
 # --- the smallest circle ----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SmallestCircle:
     """The smallest circle round a curve: centre and radius (kg·m), and the two or three places θ (rad) where it
     touches.

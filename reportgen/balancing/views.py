@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_d
 from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
 from reportgen.balancing.order_views import factors_table
 from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, frame_reactions, shaking_force
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.document import Value
 from reportgen.document.figure_placement import FigureScenes
@@ -41,7 +41,7 @@ def _turn(report: ReportContext) -> BalancedTurn:
 
 
 @view("link", "parts", "lines")
-@dataclass(frozen=True, slots=True)
+@record
 class ShakenLink:
     """A link whose inertia shakes the frame.
 
@@ -54,7 +54,7 @@ class ShakenLink:
 
 
 @view("name", "lines", "masses")
-@dataclass(frozen=True, slots=True)
+@record
 class BalancingRule:
     """A rule for the counterweight on the crank: "rms", "max", "rotating" or "share".
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, atlas_files, is_own_machine
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import STRANGE, MappingNode, Source, in_a_line, plain, read_source, read_words
@@ -72,7 +72,7 @@ def _sound(value: Any) -> Any:
     return text if text and len(text) <= LONGEST_WORDS and not STRANGE.search(text) else None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ParameterWords:
     """What the form says of a parameter besides its name: its bounds as typed, and the key of its group."""
 

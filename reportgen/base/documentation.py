@@ -10,9 +10,10 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import REFERENCE, documentation, languages
 from reportgen.base.units import Language
 from reportgen.base.words import spoken
@@ -26,7 +27,7 @@ _HEADING = re.compile(r"(?P<marks>##|###) (?P<title>.+)")
 _ENTRY = re.compile(r"- \[(?P<title>[^\]]+)\]\((?P<link>[^)]+)\)(?:: (?P<summary>.+))?")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class IndexEntry:
     """A page in the index: the kind of page (`group`), the subject within it or "", and one line of what it says."""
 

@@ -7,11 +7,13 @@ the caller. This module contains no words: `message` is already in the requested
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Literal
 
+from reportgen.base.records import record
 
-@dataclass(frozen=True, slots=True)
+
+@record
 class Location:
     """A place in a file; `line` and `column` count from 1."""
 
@@ -31,7 +33,7 @@ class Location:
         return (self.file, 0, self.line, self.column)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CellLocation(Location):
     """A cell of a spreadsheet file: `line` is its row; `number` orders the sheets, from 1."""
 
@@ -61,7 +63,7 @@ Where = tuple[str | int, ...]
 """A place in the content of a file: keys and list indices from the top."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fault:
     """A fault at a location of a text; `arguments` fill the message named by `code`.
 
@@ -98,7 +100,7 @@ class Fault:
         return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Finding:
     """A fault of the content at a path of the file, before its location is known; `at` its value or its key."""
 
@@ -108,7 +110,7 @@ class Finding:
     at: Literal["value", "key"] = "value"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Problem:
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 

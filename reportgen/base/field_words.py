@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -18,6 +17,7 @@ from typing import Any
 from reportgen.base.atlas_words import machine_parameters, machine_words
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
+from reportgen.base.records import record
 from reportgen.base.template_folders import kind_words, languages, machine_files, topic_file, words_file
 from reportgen.base.topics import topics
 from reportgen.base.units import Language
@@ -29,7 +29,7 @@ CHOICES = "choices"
 PARAMETERS = "parameters"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FieldWords:
     """Labels of a key: its name, a remark about its use, and the title of its group."""
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
 from reportgen.base.errors import TemplateError
+from reportgen.base.records import record
 from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
 
@@ -20,7 +21,7 @@ DecimalMark = Literal[".", ","]
 _LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TypstSetting:
     """Settings of Typst for the language: its code, perhaps a region, hyphens, and fonts for missing letters.
 
@@ -34,7 +35,7 @@ class TypstSetting:
     strong: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class WordSetting:
     """Fonts of a Word file: size in points, font, and font for East Asian characters."""
 
@@ -43,7 +44,7 @@ class WordSetting:
     east_asian: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawingSetting:
     """Fonts of DXF files: `style` is a stroke font in LibreCAD, `font` the font in all other programs."""
 
@@ -51,7 +52,7 @@ class DrawingSetting:
     font: str = "arial.ttf"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PageMargins:
     """Margins around the text of a page (mm)."""
 
@@ -66,7 +67,7 @@ class PageMargins:
         return self.left + self.right > 50 or self.top + self.bottom > 42 or min(self.left, self.right) < 5
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MobilityNotation:
     """Notation of the degree of freedom: 3n − (2t + c) + r − s; or `apart`, 3n − 2t − c, with r and s unless zero.
 
@@ -77,7 +78,7 @@ class MobilityNotation:
     apart: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ReadingWords:
     """Words by which a reader of students' reports recognises the meaning of a text.
 
@@ -118,7 +119,7 @@ class ReadingWords:
     """Heads of a table over the names of positions, besides `position`."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LanguageSetting:
     """Content of `language.yaml`, with the defaults of the keys that it leaves out.
 

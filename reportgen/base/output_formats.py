@@ -7,15 +7,16 @@ run read this table. To add a format, write a function and add a row that names 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
+
+from reportgen.base.records import record
 
 ENGINE, TYPST, MATPLOTLIB, PILLOW = "the typesetter of `--engine`: Typst or LaTeX", "Typst", "matplotlib", "Pillow"
 OPENPYXL, EZDXF, FFMPEG = "openpyxl", "ezdxf", "ffmpeg"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Format:
     """One format of one product.
 
@@ -53,7 +54,7 @@ class Format:
         return _imported(self.writer)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BatchProduct:
     """A product that `batch --make` knows by `name`: the function that makes its files, and how a batch treats them."""
 

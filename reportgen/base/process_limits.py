@@ -14,13 +14,13 @@ import sys
 import warnings
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from threading import Thread, Timer
 from typing import Any, TypeVar
 
 from reportgen.base.errors import OutputWarning
+from reportgen.base.records import record
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -38,7 +38,7 @@ fork.
 _BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.process_limits import serve; serve()"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Limits:
     """Limits of one call: seconds, and megabytes beyond those that its process starts with."""
 

@@ -10,12 +10,13 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any
 
 from reportgen.base.files import contents, put_files, standing
+from reportgen.base.records import record
 
 MADE_OF = ("assignment", "engine", "language", "templates", "version")
 """Inputs that decide the bytes of every product; a product may add others, such as the questions of a sheet."""
@@ -28,7 +29,7 @@ LARGEST = 1_000_000
 """Bytes of a record."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Made:
     """Files of a folder by name, with the SHA-256 of their written contents, and the inputs they were made from."""
 
@@ -53,7 +54,7 @@ class Made:
                 yield folder / name
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Put:
     """Result of putting files into a folder: the `paths` written, the stale files `gone`, and the files `left`.
 

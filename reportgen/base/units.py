@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from reportgen.base.languages import Language as Language
 from reportgen.base.languages import common_unit, decimal_mark
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members
 
 if TYPE_CHECKING:
@@ -123,7 +123,7 @@ _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])
 
 
 @template_members("si")
-@dataclass(frozen=True, slots=True)
+@record
 class Given:
     """A quantity as given: `si` is its value in SI units; `value`, `unit` and `text` are as typed."""
 
@@ -354,7 +354,7 @@ MOST_DECIMALS = 8
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PowerOfTen:
     """A number as `factor`·10^`exponent`, the factor with `decimals` (None: unchanged)."""
 

@@ -11,7 +11,7 @@ import codecs
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import islice
 from operator import attrgetter
 from pathlib import Path
@@ -22,6 +22,7 @@ import yaml
 from reportgen.base import chinese, cyrillic
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
+from reportgen.base.records import record
 from reportgen.base.typing_mistakes import misplaced, open_quote, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
@@ -69,7 +70,7 @@ Span = tuple[int, int]
 NOWHERE: Span = (-1, -1)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Scalar:
     """A piece of text; `null` if nothing was written, `quoted` if it is in quotation marks.
 
@@ -89,14 +90,14 @@ class Quoted(str):
     __slots__ = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SequenceNode:
     items: tuple[Node, ...]
     location: Location
     span: Span = field(default=NOWHERE, compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MappingNode:
     """A mapping: its entries in the order of the file, each key once."""
 
@@ -111,7 +112,7 @@ class MappingNode:
 Node = Scalar | SequenceNode | MappingNode
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Source:
     """A file as read: its top node (None if it could not be read) and the faults found while reading."""
 

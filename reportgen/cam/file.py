@@ -23,6 +23,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM, Given
 from reportgen.cam import inverse_design
@@ -42,14 +43,14 @@ ALLOWED = 1e-9
 """A pressure angle may exceed its limit by this rounding error (rad)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PerPhase:
     """Number of steps of each phase."""
 
     counts: tuple[tuple[str, int], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Steps(Reader):
     """Reader of the positions: a number per turn, a step in degrees, or a number for each phase."""
 

@@ -19,6 +19,7 @@ from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
 from reportgen.base.languages import UnitNames, languages, setting_of
+from reportgen.base.records import record
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import common_words, load_words, word
 from reportgen.case.answer_key import INSTANT, Key, Span
@@ -42,7 +43,7 @@ if TYPE_CHECKING:
     from reportgen.machine.analysis import Analysis
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Misconceptions:
     """Common misconceptions about an assignment, which marking looks for.
 
@@ -83,7 +84,7 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
                 yield id, taken
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DriverMotion:
     """Motion of a driver through the positions of a cycle, at constant speed.
 
@@ -101,7 +102,7 @@ class DriverMotion:
     signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True)
+@record
 class AskedFor:
     """Questions of a task for its templates."""
 

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.units import Language
 from reportgen.base.words import common_words
@@ -39,7 +40,7 @@ class Role(StrEnum):
     scale = "scale"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KeyRow:
     """One quantity over the positions, in its printed unit.
 
@@ -179,7 +180,7 @@ class Key:
         return tuple(row for row in self.rows if row.positions)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PartOfKey:
     """A part of a coursework: its `name` replaces the `head` at the beginning of its ids."""
 
@@ -197,7 +198,7 @@ class PartOfKey:
         return self.name + id.removeprefix(self.head) if self.head and id else id
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Span:
     """Positions of a key: labels of those of the cycle, `count` in a turn.
 

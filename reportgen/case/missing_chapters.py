@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.base.errors import Where
+from reportgen.base.records import record
 from reportgen.base.words import find
 
 _HEADING = re.compile(r"^#+ +(.*)$", re.MULTILINE)
@@ -15,7 +15,7 @@ _OTHERWISE = re.compile(r"{% *else *%}.*?{% *endif *%}")
 _MARKS = re.compile(r"{%.*?%}|{{.*?}}")
 
 
-@dataclass(frozen=True)
+@record
 class MissingChapter:
     """A chapter by its title, with the keys that it needs: one of each group in `wanted`."""
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from reportgen.base.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Shaft:
     """A shaft: its name, its speed (rad/s) if it is known, and its sense, 1 or −1.
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.base.topics import HookModule
 from reportgen.machine.analysis import Analysis
 
@@ -21,7 +21,7 @@ def _nothing_besides(analysis: Analysis) -> Entries:
     return {}
 
 
-@dataclass(frozen=True)
+@record
 class ResultHooks:
     """The results of a topic: those added to the entry of the position with index k, and those without a position."""
 

@@ -25,6 +25,7 @@ from reportgen.assignment.reading import model_of, placed, read_section
 from reportgen.assignment.schema import Schema, file_schema, places
 from reportgen.base.atlas_words import LONGEST_WORDS
 from reportgen.base.errors import Fault, Finding, Where
+from reportgen.base.records import record
 from reportgen.base.template_folders import languages
 from reportgen.base.topics import topics
 from reportgen.base.typing_mistakes import in_quotes
@@ -45,7 +46,7 @@ _FRACTIONS = frozenset({"s", "height"})
 _SECTION = "linkage"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Passage(Reader):
     """A text of some sentences, kept as one line."""
 
@@ -95,7 +96,7 @@ class MachineFile(Part):
     linkage: dict[str, Any]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Parameter:
     """A parameter of a machine, with the reader of its values."""
 
@@ -108,7 +109,7 @@ class Parameter:
         return self.default.unit
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlacedFormula:
     """A formula at a place of the linkage, and the unit of its value there; "" for a pure number."""
 

@@ -17,12 +17,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration
 from reportgen.formula import (
     Chain,
@@ -197,7 +197,7 @@ def _joint_of_second_rod(q: Calculation, turn: int, joint: str) -> None:
 # --- with an offset ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OffsetSlider:
     """Crank r and rod l (m), offset e (m, along y), the guide's direction `axis` (rad) and the rotation `turn` = ±1."""
 

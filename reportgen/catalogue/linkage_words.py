@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterator
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.declared_loads import LoadRow, row_of
@@ -16,7 +16,7 @@ from reportgen.machine import Guide
 
 
 @view("drawing")
-@dataclass(frozen=True, slots=True)
+@record
 class GroupRow:
     """A group: its links, kind, joints and the lengths of its rods, each with its ends."""
 
@@ -39,7 +39,7 @@ class GroupRow:
         return "RPR-offset" if self.offset else self.kind
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GuideRow:
     """A guide: the link that slides, the link that carries it, a point of it, its direction."""
 
@@ -50,7 +50,7 @@ class GuideRow:
     angle: Number
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointRow:
     """A point of a link by its distances from a joint.
 
@@ -66,7 +66,7 @@ class PointRow:
 
 
 @view()
-@dataclass(frozen=True, slots=True)
+@record
 class MotionRow:
     """Motion of a link: "rotation" about a fixed point, "translation" along a fixed guide, "shift" without
     rotation, or "plane" motion.

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Protocol
 
+from reportgen.base.records import record
 from reportgen.catalogue.vector_components import STILL, VectorComponents, add, along, less, scaled, turned, typed
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, minus, square
 from reportgen.formula.calculation import Calculation
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Moving:
     """A point: its coordinates, its velocity and its acceleration by components."""
 
@@ -19,7 +19,7 @@ class Moving:
     a: VectorComponents = STILL
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoopBody:
     """A link: the origin of its frame by name and motion, the frame's angle, ω and ε."""
 
@@ -45,7 +45,7 @@ class LoopBody:
 FRAME = LoopBody("", Moving(STILL), Number(0.0, unit="°"))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoopRail:
     """A guide: a point of its line, its angle, the link that has it."""
 
@@ -66,7 +66,7 @@ class LoopIteration(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoopLine:
     """A quantity with its formula, and the name of the part of the equations to which it belongs."""
 

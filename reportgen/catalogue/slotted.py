@@ -12,9 +12,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration, natural_lines
 from reportgen.formula import (
     NOTHING,
@@ -50,7 +50,7 @@ HIGHEST = 0.165
 STRAIGHT, TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SlottedCrank:
     """Crank r about A, lever about C at the distance d below A (m); `axis` is the direction from C to A (rad)."""
 
@@ -102,7 +102,7 @@ def drawn_crank(crank: float, height: float) -> float:
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Ram:
     """The lever's crank, and the lengths (m) of the lever and of the link, and the height of the ram's line over C."""
 

@@ -16,11 +16,11 @@ and k are also the derivatives that the iteration needs. Its determinant is zero
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
+from reportgen.base.records import record
 from reportgen.catalogue import ternary_ids
 from reportgen.catalogue.loop_bodies import LoopBody, Moving
 from reportgen.catalogue.loop_builder import LoopBuilder
@@ -61,7 +61,7 @@ Beside a dead point two assemblies are less than a degree apart. The last readin
 """
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LegLoop:
     """The loop over the first leg, the ternary link and another `leg`, for any angles of these links.
 
@@ -111,7 +111,7 @@ def cramer(rows: Sequence[VectorComponents], right: VectorComponents) -> VectorC
 # --- positions ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AngleIteration:
     """Newton's iteration for the angles of the first leg and of the ternary link.
 
@@ -210,7 +210,7 @@ class AngleIteration:
         ]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Step:
     """A step of the iteration: the `number` of steps before it, which its symbols have, e.g. φ₂⁽¹⁾."""
 

@@ -7,7 +7,7 @@ and the form show all.  A topic has its `TopicSection` as `HOOKS` in its module 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from typing import Any, ClassVar, Literal, TypeVar
 
@@ -15,6 +15,7 @@ from pydantic import create_model
 
 from reportgen.assignment.common import Check, Draft, Part
 from reportgen.base.errors import Finding
+from reportgen.base.records import record
 from reportgen.base.topics import TOPIC_MODULE, HookModule
 from reportgen.base.units import Given
 from reportgen.formula import Ref, Symbol
@@ -72,7 +73,7 @@ class TopicParameters(Part):
         return False
 
 
-@dataclass(frozen=True)
+@record
 class Opening:
     """The data that a topic can use to enter its own while the calculation of a machine is started."""
 
@@ -86,7 +87,7 @@ class Opening:
     """Values provided by earlier topics, by the names of the shared results."""
 
 
-@dataclass(frozen=True)
+@record
 class TopicData:
     """Result of reading a topic's section: the subject that the machine then has, and loads that act on it."""
 
@@ -129,7 +130,7 @@ def _no_checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
     return ()
 
 
-@dataclass(frozen=True)
+@record
 class TopicSection:
     """The section of a topic in the file of a machine, and its chapter in the report.
 
@@ -220,7 +221,7 @@ def topic_checks(model: type[Part], names: tuple[str, ...]) -> tuple[Check, ...]
     return tuple(check for section in sections_of(names) for check in section.checks(model))
 
 
-@dataclass(frozen=True)
+@record
 class EnteredTopics:
     """The topics of a machine, once their data are entered."""
 

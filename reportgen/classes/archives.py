@@ -15,11 +15,11 @@ from bisect import bisect_right
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause
+from reportgen.base.records import record
 from reportgen.workbook.table_writing import MOMENT
 from reportgen.workbook.zip_package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
 
@@ -41,7 +41,7 @@ CountStudents = Callable[[Sequence[str]], int]
 """Returns how many of the given names are those of students."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ArchiveMember:
     """A file in an archive, with its decoded name."""
 
@@ -49,7 +49,7 @@ class ArchiveMember:
     info: zipfile.ZipInfo
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Archive:
     """An opened archive that passed the safety checks."""
 

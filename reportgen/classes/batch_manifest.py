@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,6 +20,7 @@ from pydantic import TypeAdapter, ValidationError
 from reportgen.base.files import contents, put_file
 from reportgen.base.provenance import MADE_OF, Made, hash_of
 from reportgen.base.provenance import made_of as made_of_input
+from reportgen.base.records import record
 from reportgen.classes.worker_pool import Job, Outcome
 
 if TYPE_CHECKING:
@@ -34,7 +35,7 @@ STANDARDS = "standards"
 """Name of the input for the standards of a PDF, if they are not the default."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ManifestEntry:
     """One product of one student: its inputs, and its files with their SHA-256, or the problems that made it fail."""
 

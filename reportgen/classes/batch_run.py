@@ -21,6 +21,7 @@ from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Location, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch
 from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
+from reportgen.base.records import record
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import preload
@@ -45,7 +46,7 @@ Watch = Callable[[str, str, Event], None]
 """Receives the student's folder, the product and the event; no names, no content."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Order:
     """The request of a batch: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
@@ -68,7 +69,7 @@ class Order:
     standards: Standards = STANDARDS
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Failure:
     """A product that could not be made; its problems name the file by a path that can be opened from here."""
 

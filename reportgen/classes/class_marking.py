@@ -12,6 +12,7 @@ from itertools import chain
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Problem, ReportgenError
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -105,7 +106,7 @@ class Classroom:
         return tuple(name_words(key.student.get("name", "")) for key in self.keys)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Graded:
     """The result of marking a class: markings by assignment, all problems, and the students without marks.
 

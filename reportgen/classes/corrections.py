@@ -12,13 +12,14 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
 
 from reportgen.base.chinese import narrow
 from reportgen.base.errors import Fault, Location, Problem
+from reportgen.base.records import record
 from reportgen.base.template_folders import languages
 from reportgen.base.timestamps import moment
 from reportgen.base.typed_characters import plain_signs
@@ -38,7 +39,7 @@ SIGNED, DATED = "judged_by", "judged_on"
 """Optional columns for the person and the date of a correction."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Correction:
     """A row: student, quantity and position as typed.
 

@@ -6,10 +6,11 @@ Both are needed permanently: the others keep their variants only while the first
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from pathlib import Path
 
 from reportgen.base.errors import Location, UnknownNameError
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import unknown
 from reportgen.classes.roster import Roster, RosterEntry, comparable
@@ -20,7 +21,7 @@ REDRAWN, DROPPED = "redrawn", "dropped"
 MARKED = "x"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class EarlierDraw:
     """The students of an earlier table in its order, by `comparable` id, with the numbers and marks of its columns."""
 

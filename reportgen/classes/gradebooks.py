@@ -13,10 +13,10 @@ import html
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import record
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -38,7 +38,7 @@ _PARTICIPANT = re.compile(r"\D+(\d+)")
 _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Participant:
     """A student's identification in a platform's table: ids, and the platform's number, "" if unknown.
 
@@ -51,7 +51,7 @@ class Participant:
     name: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StudentResult:
     """The result of one student: the `mark` as a share of the highest one, and a comment in lines."""
 
@@ -60,7 +60,7 @@ class StudentResult:
     comment: Sequence[str] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Cell:
     """A cell of the file: its start and end in the text, its content, and whether it is quoted."""
 
@@ -70,7 +70,7 @@ class _Cell:
     quoted: bool
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Row:
     """A student's row: the cell of the grade, the platform's number, and the other texts that identify the student.
 
@@ -90,7 +90,7 @@ class _Row:
         return bool(student.number and student.number == self.number) or bool(self.names & student.ids)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Table:
     """The table's students and the maximum grade, as the table writes it.
 
@@ -102,7 +102,7 @@ class _Table:
     called: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Gradebook:
     """A platform's table: its text after the byte order mark `bom`, its encoding, and the cells for its grades."""
 

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 from reportgen.base.errors import Fault, Location, Problem
+from reportgen.base.records import record
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -21,7 +21,7 @@ NONE = frozenset({"", "-", "–"})
 """Texts that mean a missing date."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Handing:
     """Submission data of a sheet: the roster's date, and whether the platform calls it late."""
 

@@ -12,6 +12,7 @@ from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location, Problem
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -28,7 +29,7 @@ from reportgen.marking.marking_data import Submission
 from reportgen.marking.marking_policy import Twice
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class OwnWork:
     """A student's own files, each with what was read from it."""
 
@@ -56,7 +57,7 @@ class OwnWorks:
         self.problems += problems
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SearchTargets:
     """Functions that return what to search for in a student's files, by the key.
 

@@ -13,12 +13,13 @@ import time
 import unicodedata
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import leads_out
+from reportgen.base.records import record
 from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 from reportgen.classes.archives import ARCHIVE, LARGEST_INSIDE, opened
@@ -42,7 +43,7 @@ _LOST = "?_\ufffd"
 _CANVAS_BLIND = re.compile(r"(?P<prefix>(?P<late>LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Owner:
     """The submitter of a file according to the platform: its own number, and a name ("" if it is hidden).
 
@@ -69,7 +70,7 @@ class Owner:
         return folded(self.name.rpartition("-")[2]) in _hidden_names()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Handed:
     """A file that may be a sheet: `path` names it, `data` is its content if it comes from an archive.
 

@@ -15,7 +15,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -28,6 +28,7 @@ from reportgen.base import chinese
 from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds, program_kinds
+from reportgen.base.records import record
 from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
@@ -41,7 +42,7 @@ _WITH_UNIT = re.compile(rf"(.*?)\s*[(\[（]\s*({UNIT})\s*[)\]）]")
 _NUMBER = re.compile(NUMBER)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RosterColumn:
     """A heading: `name` is a known column or the typed text, `unit` the text in brackets after it."""
 
@@ -51,7 +52,7 @@ class RosterColumn:
     location: Location
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Record:
     """A row: the value under each heading, without empty cells; `location` is that of its first cell.
 
@@ -147,7 +148,7 @@ _ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
 _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RosterEntry:
     """A row of the roster.
 
@@ -175,7 +176,7 @@ class RosterEntry:
         return folder_name(self.id)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Roster:
     """The students in the order of the table; `columns` are the headings of values they override."""
 

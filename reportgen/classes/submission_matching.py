@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import AssignmentError, Fault, Location, Problem
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -23,7 +24,7 @@ from reportgen.marking.marking_data import Submission
 from reportgen.marking.marking_policy import Twice
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Refused:
     """A file that is not marked, with the reasons."""
 
@@ -36,7 +37,7 @@ class Refused:
         return tuple(f"{self.handed.path.name}: {one.message}" for one in self.problems)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Collected:
     """The sheets to mark with their files, by assignment; the files that are not marked, and all problems."""
 

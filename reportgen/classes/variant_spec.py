@@ -25,7 +25,7 @@ import hashlib
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from decimal import Decimal
 from pathlib import Path
 
@@ -37,6 +37,7 @@ from reportgen.assignment.schema import allowed_forms, known_keys
 from reportgen.base.errors import Fault, Location, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.kinds import kinds
+from reportgen.base.records import record
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
 from reportgen.base.words import as_error, close_or_known, language_of
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
@@ -55,7 +56,7 @@ Settings = Mapping[Where, Scalar]
 """Values by their places in the assignment."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Choice:
     """One of the values of an axis, or one row of the table of variants."""
 
@@ -63,7 +64,7 @@ class Choice:
     settings: Settings
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnParameter:
     """An axis that is drawn independently: its path ("parameters.H", or "variants") and its choices."""
 
@@ -71,7 +72,7 @@ class DrawnParameter:
     choices: tuple[Choice, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Spec:
     """A valid spec: every choice can be parsed as its type; not every combination need turn.
 
@@ -376,12 +377,12 @@ def _rows(file: Path, kind: Kind, base: MappingNode, faults: list[Fault], langua
     places = {column.name: place(kind, column.name) for column in values}
     rows: list[Choice] = []
     names: set[str] = set()
-    for record in records(page, headings, start + 1, faults):
-        name = record.values["variant"].text if "variant" in record.values else str(len(rows) + 1)
+    for row in records(page, headings, start + 1, faults):
+        name = row.values["variant"].text if "variant" in row.values else str(len(rows) + 1)
         if name in names:
-            faults.append(Fault("choice-repeated", record.location, {"text": name}))
+            faults.append(Fault("choice-repeated", row.location, {"text": name}))
         names.add(name)
-        rows.append(Choice(name, {places[key]: value for key, value in record.values.items() if key in places}))
+        rows.append(Choice(name, {places[key]: value for key, value in row.values.items() if key in places}))
     if not rows:
         faults.append(Fault("empty-roster", headings[0].location))
     return tuple(rows)

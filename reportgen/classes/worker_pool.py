@@ -20,7 +20,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import islice
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
@@ -34,6 +34,7 @@ from reportgen.base.errors import AssignmentError, OutputWarning, Problem, Repor
 from reportgen.base.files import version
 from reportgen.base.process_limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.provenance import assignment_hash
+from reportgen.base.records import record
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import speak, spoken, templates_hash, unexpected, word
@@ -47,7 +48,7 @@ SYSTEM = 3
 """Exit code of a failure that no change of the assignment can fix."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Making:
     """The inputs of a result besides the assignment.
 
@@ -64,7 +65,7 @@ class Making:
     standards: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Job:
     """One product of one student: `content` is the assignment file, `file` its name, `folder` that of the results."""
 
@@ -86,7 +87,7 @@ class Job:
         return assignment_hash(self.content, self.beside)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Outcome:
     """The files of a product by name; or, with an exit code other than 0, the problems that prevented them.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.derivation.group_forces import enter_forces
 from reportgen.derivation.group_motion import enter_kinematics
@@ -31,7 +31,7 @@ mean by the curve and by the work.
 """
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlannedLedger:
     """The ledger of an analysis, and the force plans that are laid out in it.
 

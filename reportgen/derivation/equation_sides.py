@@ -22,8 +22,8 @@ RPP  P's point of j slides over P      it slides over the guide's link
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Group, Guide, Linkage, Triad, owners, under
 
@@ -33,7 +33,7 @@ def image(name: str) -> str:
     return name.lower()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Side:
     """One side of a group's vector equation: the motion of a `point` as that of its `base` plus the relative motion.
 
@@ -126,7 +126,7 @@ class Side:
         return ids.angular_velocity(self.turning)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Scheme:
     """A linkage with the link of each point (`owner`), and the links that rotate together (`spins`)."""
 

@@ -7,12 +7,12 @@ R42), `couple.X` its couple if it has one, `h.X.D` its signed arm about a point 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from enum import IntEnum
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import record
 from reportgen.derivation.equation_sides import Scheme, image
 from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
 from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
@@ -52,7 +52,7 @@ class Origin(IntEnum):
     weight = 3
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadOn:
     """A load: its name, its link, its point of action ("" for a couple alone), its size, and its `letters` in symbols.
 
@@ -71,7 +71,7 @@ class LoadOn:
 EnterGuide = Callable[["Statics", str, int], None]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Statics:
     """The calculation `q`, the linkage and the loads while reactions are entered group by group."""
 
@@ -317,7 +317,7 @@ LETTERS = "efghijklmqrtuvwxyzabcd"
 """Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Edge:
     """One force on a `link` in a polygon, from vertex to vertex; closing the polygon gives the `unknown` edges."""
 
@@ -339,7 +339,7 @@ class Edge:
         return read["part"] if read else ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Polygon:
     """A group's force plan: its edges head to tail and the joints read from it.
 

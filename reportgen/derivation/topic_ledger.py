@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.base.topics import HookModule
 from reportgen.derivation.load_entries import EnterGuide, Statics
 from reportgen.formula import Expression, Ref
@@ -36,7 +36,7 @@ def _no_mistakes(ledger: Ledger, machine: Machine) -> Changed:
     return {}
 
 
-@dataclass(frozen=True)
+@record
 class LedgerHooks:
     """The entries of a topic, in the order in which they are made, and mistakes that marking looks for."""
 

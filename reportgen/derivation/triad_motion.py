@@ -10,10 +10,10 @@ leg and aⁿ_SQ = ω² QS of the plate.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.derivation.equation_sides import Scheme, Side, image, triad_sides
 from reportgen.derivation.kinematic_entries import Kinematics, What
 from reportgen.derivation.link_points import enter_rod, images, places
@@ -33,7 +33,7 @@ from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.triads import PAIRS
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SpecialPoint:
     """The special point of two legs of a triad: its `name`, the two legs, and the third leg."""
 
@@ -130,7 +130,7 @@ def _places(k: Kinematics, triad: Triad, motion: Motion) -> None:
     k.put(triad.plate, first.inner, axis, second.inner)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Entry:
     """The plans of a triad while they are entered; `legs` are the sides on which the plate's joints turn."""
 

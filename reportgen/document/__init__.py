@@ -13,10 +13,11 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from typing import Any, Literal, Self
 
 from reportgen.base.languages import UnitNames, setting_of
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.document.cjk_punctuation import set_out
 from reportgen.document.inlines import DOTS as DOTS
@@ -37,7 +38,7 @@ from reportgen.formula.plain_text import formula, quantity
 # --- blocks ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Section:
     """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
@@ -53,7 +54,7 @@ class Section:
     opens: str = field(default="", compare=False)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Paragraph:
     """A paragraph of inlines; `align` is "" for the document's usual alignment."""
 
@@ -61,7 +62,7 @@ class Paragraph:
     align: Literal["", "center", "right"] = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class List:
     """A list whose items are blocks; an `ordered` one counts from `start`."""
 
@@ -70,7 +71,7 @@ class List:
     start: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equation:
     """One or more displayed lines; each row is one expression.
 
@@ -89,7 +90,7 @@ FIRST_COLUMN = 16.0
 """Width (mm) of the column of a table that names the positions."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Column:
     """A column of a table: its width (mm) and the alignment of its cells."""
 
@@ -97,7 +98,7 @@ class Column:
     align: Literal["left", "center", "right"] = "center"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Cell:
     """A cell of a table; `span` is the number of columns that it covers."""
 
@@ -105,7 +106,7 @@ class Cell:
     span: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Table:
     """A ruled table; where it continues on the next page, its number and its `head` rows are repeated.
 
@@ -124,7 +125,7 @@ class Table:
     last: int = 3
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Figure:
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
@@ -144,7 +145,7 @@ class Figure:
     """Number of the table that has the facts of its drawings and more; numbering fills it in if there is one."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Plate:
     """A figure on a separate page of its paper size (mm), too large in true size for the A4 text block, even turned.
 
@@ -162,7 +163,7 @@ class Plate:
     rest: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Cover:
     """The title page: institution lines on top, title lines in the middle, labelled fields, place and date."""
 
@@ -174,7 +175,7 @@ class Cover:
     place_and_date: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Contents:
     """Table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
 
@@ -186,21 +187,21 @@ class Contents:
     alone: bool = True
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BlankLine:
     """A dotted line to write on."""
 
     label: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Listing:
     """Lines of a program, printed verbatim in a monospaced font."""
 
     lines: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PageBreak:
     """The end of a page."""
 
@@ -210,7 +211,7 @@ Block = (
 )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Words:
     """The few words that writers themselves print, in the report's language."""
 
@@ -238,7 +239,7 @@ class Words:
         return cls(*(own[field.name] for field in fields(cls)))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Document:
     """A finished report: its blocks in order, and the texts that every page carries."""
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
+from reportgen.base.records import record
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import FIGURE_HEIGHT
 from reportgen.drawing import Scene
@@ -31,7 +32,7 @@ LEAST_MARGIN = 0.5
 """White space (mm) that remains around a scene."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FigureScenes:
     """Scenes of a figure; `paper` (mm) requests a separate page for each, `turned` an A4 landscape page."""
 

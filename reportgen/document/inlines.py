@@ -5,33 +5,32 @@ Texts are plain strings exactly as they appear in print; writers escape them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from reportgen.base.records import record
 from reportgen.formula import Expression, Number
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Text:
     """Plain text."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Emph:
     """Emphasised inlines, printed in italics."""
 
     of: tuple[Inline, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Strong:
     """Strong inlines, printed in bold."""
 
     of: tuple[Inline, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InlineMath:
     """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
 
@@ -39,14 +38,14 @@ class InlineMath:
     slashed: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Value:
     """A number with its unit inside a line or a table cell."""
 
     number: Number
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reference:
     """The number of the block called `key`, linked; `text` is filled in by numbering."""
 
@@ -54,12 +53,12 @@ class Reference:
     text: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LineBreak:
     """The end of a line inside a paragraph."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Blank:
     """A place to fill in.
 

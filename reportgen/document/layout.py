@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import groupby
 
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.document import (
     TEXT_WIDTH,
@@ -39,7 +40,7 @@ CERTAIN = 0.96
 """Share of the room up to which an estimated row certainly fits; one that is too wide would part all others."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Letter:
     """The font of running text ("" for the typesetter's own) and its size in points.
 

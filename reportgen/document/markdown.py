@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import accumulate
 from pathlib import Path
@@ -21,6 +20,7 @@ from markdown_it.tree import SyntaxTreeNode
 
 from reportgen import document as tree
 from reportgen.base.errors import TemplateError
+from reportgen.base.records import record
 from reportgen.base.words import of_file, word
 
 SECRET = str(secrets.randbelow(10**18)).zfill(18)
@@ -29,14 +29,14 @@ TOKEN = re.compile(f"\ue000{SECRET}:(\\d+)\ue001")
 """A value's token in the Markdown text; its group is the index of the value."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SectionKey:
     """The name of the section whose heading it ends."""
 
     name: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Unnumbered:
     """A mark that excludes the section whose heading it ends from numbering."""
 
@@ -45,7 +45,7 @@ Emitted = tree.Inline | tree.Block | SectionKey | Unnumbered
 TemplateLine = tuple[str, int]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Rendered:
     """Markdown with tokens: `values` and their `places` by index, `lines` the origin of every line."""
 
@@ -71,7 +71,7 @@ _UNKNOWN = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Piece:
     """A value and the index of its token."""
 
@@ -123,7 +123,7 @@ def _parser() -> MarkdownIt:
     return parser.disable(["code", "lheading", "reference", "entity"])
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Reader:
     rendered: Rendered
 

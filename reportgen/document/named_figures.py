@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 
+from reportgen.base.records import record
 from reportgen.document import Block, Document, Figure, List, Plate, plain
 from reportgen.drawing import Scene
 
@@ -16,7 +17,7 @@ _UNSAFE = re.compile(r"[^\w.′″-]+")
 """Characters that no file name needs."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class NamedFigure:
     """A figure of a report: its name, its number and caption as text, its drawings.
 

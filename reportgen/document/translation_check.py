@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from reportgen.base.field_words import SECTION as FIELDS
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.languages import MobilityNotation, read_setting
 from reportgen.base.placeholders import gaps
+from reportgen.base.records import record
 from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, TOPICS, templates
 from reportgen.base.words import MESSAGES_SECTION, SECTION, Passage, sections
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
@@ -131,7 +132,7 @@ def _marks(levels: Iterable[int]) -> str:
     return " ".join("#" * level for level in levels) or "–"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SectionContents:
     """Language-independent contents of a section, and the words inside its braces, by their lines."""
 
@@ -334,7 +335,7 @@ def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
 # --- terms ------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Terms:
     """Terms of the glossary in a language: for each, its name in the language of reference, as it is found in a
     text, and the language's names, any of which will do.

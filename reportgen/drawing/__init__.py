@@ -7,9 +7,10 @@ machines, nor writers on figures.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
+from reportgen.base.records import record
 from reportgen.drawing.chart_data import Content as Content
 from reportgen.drawing.chart_data import Diagram as Diagram
 from reportgen.drawing.chart_data import PlottedCurve as PlottedCurve
@@ -18,7 +19,7 @@ from reportgen.drawing.drawing_description import Description as Description
 Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pen:
     """A pen: width in mm, colour as #rrggbb, dashes (on, off, …) in mm; empty dashes draw solid."""
 
@@ -27,7 +28,7 @@ class Pen:
     dash: tuple[float, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Line:
     """A straight line from `start` to `end` (mm)."""
 
@@ -36,7 +37,7 @@ class Line:
     stroke: Pen = Pen()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arrow:
     """Straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
 
@@ -50,7 +51,7 @@ class Arrow:
     name: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Circle:
     """A circle about `centre` with a `radius` (mm); `stroke` and `fill` (#rrggbb) are None where it has none."""
 
@@ -60,7 +61,7 @@ class Circle:
     fill: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arc:
     """An arc about `centre` with a `radius` (mm), from `start` to `stop` (rad, anticlockwise if stop > start).
 
@@ -75,7 +76,7 @@ class Arc:
     head: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Polyline:
     """Straight lines through points (mm).
 
@@ -89,7 +90,7 @@ class Polyline:
     smooth: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Hatch:
     """Parallel strokes that fill a convex polygon (ground, sections), `spacing` mm apart.
 
@@ -102,7 +103,7 @@ class Hatch:
     turn: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Label:
     """Text at a point (mm); `anchor` is the point of its box that lies on `at`."""
 
@@ -122,7 +123,7 @@ class Label:
 Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Scene:
     """A drawing of `width` × `height` mm in true size."""
 

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import nice_up
 from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, spring_drawings, style
 from reportgen.drawing.charts import Plotted
@@ -63,7 +64,7 @@ class Track:
         return Track(self.values + other.values)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Still:
     """Items that do not move."""
 
@@ -71,7 +72,7 @@ class Still:
     layer: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MovingBody:
     """Items in a frame that moves: its origin follows `at` and it turns by `angle` (rad)."""
 
@@ -81,7 +82,7 @@ class MovingBody:
     layer: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MovingVector:
     """An arrow between two tracks, or with `head` 0 a line, extended by `beyond` mm at its end."""
 
@@ -95,7 +96,7 @@ class MovingVector:
     beyond: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MovingName:
     """A label that follows a track, on the side away from its `neighbours`."""
 
@@ -106,7 +107,7 @@ class MovingName:
     layer: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Spot:
     """A named point that displays its motion under the pointer.
 
@@ -124,7 +125,7 @@ class Spot:
 MovingItem = Still | MovingBody | MovingVector | MovingName
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BarScale:
     """The scale of a drawing for a `kind` of quantity: `per` is the SI value that one millimetre represents.
 
@@ -145,7 +146,7 @@ class BarScale:
         return Number(value, None, units.get(how.unit, how.unit)), value * how.scale / self.per
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pane:
     """A moving drawing, in mm, in the box from `low` to `high`, with its scales as bars below.
 
@@ -195,7 +196,7 @@ def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tupl
     return pane.low - 1j * strips * STRIP * enlargement, bars
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Curve:
     """A curve of a chart: its label, and its values in the unit of its axis."""
 
@@ -203,7 +204,7 @@ class Curve:
     values: Track
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Chart:
     """A chart with a cursor along the driver's travel.
 
@@ -215,7 +216,7 @@ class Chart:
     of_run: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TimedRun:
     """A motion that can be played in time: "steady", "start" or "stop".
 
@@ -230,7 +231,7 @@ class TimedRun:
     drive: np.ndarray
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MomentValue:
     """A number that the page displays for the current moment: its symbol, its unit, its values in that unit."""
 
@@ -240,7 +241,7 @@ class MomentValue:
     decimals: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Errors:
     """Largest errors from linear interpolation between samples."""
 
@@ -252,7 +253,7 @@ class Errors:
     """Error of velocities, accelerations and forces as a share of their greatest value."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Animation:
     """An animation in a panel of a page.
 
@@ -425,7 +426,7 @@ def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> 
     return [MovingName(label, tracks[at], tuple(joined.get(at, ())), gap) for label, at in named]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fitted:
     """Moving corners that fit a panel.
 

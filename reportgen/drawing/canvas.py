@@ -7,9 +7,9 @@ descriptions.  `finish` places the labels, crops to the content and returns the 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import reduce
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Content, Description, Item, Scene, style
 from reportgen.drawing.drawing_description import fact
@@ -22,7 +22,7 @@ MARGIN = 6.0
 """Usual margin of a scene on each side (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Canvas:
     """A draft: items in painting order, labels still to be placed, and the text description for screen readers."""
 

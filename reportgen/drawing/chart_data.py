@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from reportgen.base.records import record
 from reportgen.base.units import Language, write
 from reportgen.drawing.mathtext import MathText
 from reportgen.formula import Expression
@@ -23,7 +24,7 @@ BESIDE = {"textcoords": "offset points", "xytext": (3, 3), "fontsize": "small"}
 """Matplotlib style and offset (points) of the name at a marked point or an angle."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlottedCurve:
     """One curve: x [K] and y [K], its label, and indices of the points that get a mark.
 
@@ -39,7 +40,7 @@ class PlottedCurve:
     dots: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Inclination:
     """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
 
@@ -53,7 +54,7 @@ class Inclination:
     radius: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Diagram:
     """Curves in one frame whose axes are named `x` and `y`.
 

@@ -6,12 +6,13 @@ import cmath
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain, count
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import ALIKE, first_greatest, first_least, settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import (
@@ -86,7 +87,7 @@ TINY = 1e-12
 Vertices = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Area:
     """The room inside the axes that a chart may fill (mm), at round scales, which are printed.
 
@@ -105,7 +106,7 @@ class Area:
         return nice_up(length / room)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Window:
     """Data ranges and the size of their paper: x0…x1 over `width` mm, y0…y1 over `height` mm."""
 
@@ -126,7 +127,7 @@ class _Window:
         return complex(across, up)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Plotted:
     """A chart with its coordinates: the corners of its axes on the scene (mm), and the values there."""
 

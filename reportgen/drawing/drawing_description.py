@@ -8,11 +8,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import first_greatest, first_least, significant
 from reportgen.base.units import rounded
 from reportgen.drawing.chart_data import Content, Diagram, PlottedCurve
@@ -26,7 +27,7 @@ MOST_ZEROS = 6
 """The zeros of a curve are listed only if it has at most this many."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PaperLength:
     """A length on the paper of the drawing (mm)."""
 
@@ -36,7 +37,7 @@ class PaperLength:
 Told = Content | PaperLength | tuple[Content, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fact:
     """One statement about a drawing: the key of a phrase, and the values of its placeholders in order.
 

@@ -6,10 +6,11 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from functools import lru_cache
 from typing import TypeVar
 
+from reportgen.base.records import record
 from reportgen.drawing import (
     Arc,
     Arrow,
@@ -34,7 +35,7 @@ GAP = 5.0
 """Gap between plates, and between them and the frame (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlacedScene:
     """A scene on a sheet with its lower left corner at `at`; `name` groups its items, `layer` is its CAD layer."""
 
@@ -49,7 +50,7 @@ class PlacedScene:
         return self.at, self.at + complex(self.scene.width, self.scene.height)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawingSheet:
     """A sheet of paper, `width` × `height` mm, with its drawings; `name` is the name of its size, such as A1.
 
@@ -63,7 +64,7 @@ class DrawingSheet:
     fields: Mapping[str, str] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Room:
     """Room inside a frame from corner `low` to `high`, without the title block.
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import Language, nice_down, nice_up
 from reportgen.formula import Chain, Expression, Number
 from reportgen.formula.plain_text import formula, quantity
@@ -17,7 +17,7 @@ NEXT = 1 - 1e-9
 """A scale below this share of a standard scale counts as the next finer one."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FigureSize:
     """Size of a figure: `steps` standard scales larger than in a report, then `enlarged` with its letters.
 

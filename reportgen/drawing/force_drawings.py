@@ -8,10 +8,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 from typing import Literal
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -42,7 +43,7 @@ QUARTER = 8.0
 """Radius of the arc of 90° (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Force:
     """A force at `at` (mm on the drawing) along `direction` (any length); an arm refers to its `id`."""
 
@@ -53,7 +54,7 @@ class Force:
     id: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Couple:
     """A couple drawn as an arc about `at`, anticlockwise when `sense` > 0."""
 
@@ -62,7 +63,7 @@ class Couple:
     sense: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ArmOf:
     """The distance from the moment point `about` to the line of the force with the id `force`.
 
@@ -75,7 +76,7 @@ class ArmOf:
     length: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sliding:
     """A relative velocity along a rotating guide: labels, directions (any length), and the sense of ω (±1)."""
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
@@ -45,7 +45,7 @@ READ = 4
 """Digits of a pressure that is read from the diagram."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Branch:
     """One stroke's line: fractions of the stroke from the top dead centre [K] and pressures [K] (any one unit)."""
 
@@ -54,7 +54,7 @@ class Branch:
     pressure: tuple[float, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reading:
     """A numbered position on the diagram: its reading, and the place from which it is projected (mm), or None."""
 
@@ -68,7 +68,7 @@ ReadingGroup = Sequence[Reading]
 """Readings whose numbers are side by side in one label."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ChartFrame:
     """Position of the diagram in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache, reduce
 from pathlib import Path
 
+from reportgen.base.records import record
 from reportgen.drawing import Content
 from reportgen.formula import Symbol, formula_layout, formula_setter
 from reportgen.formula.vocabulary import numbered, runs
@@ -40,7 +40,7 @@ THIN = 0.17
 """Gap between a function and its argument, in font sizes."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Box:
     """Width, height above and depth below the baseline (mm)."""
 

@@ -19,6 +19,7 @@ from functools import cached_property, lru_cache, reduce
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.geometry import Ink, frame, overlap, segments
@@ -53,7 +54,7 @@ APART = 0.7
 """Gap between two labels (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Request:
     """A label to be placed, made by `label`."""
 
@@ -311,7 +312,7 @@ def _offered(request: Request) -> tuple[complex, Complexes]:
     return half, spots[ranking(request.prefer, len(request.points))]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Placed:
     """The labels of a figure, the lines of its key, each of parts, and True if the figure is too small for them.
 

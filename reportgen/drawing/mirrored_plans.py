@@ -6,11 +6,11 @@ The positions k and N + 2 − k of a centric slider-crank mirror each other in t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.drawing.vector_plan import Plan
 
 SAME_END = 0.01
@@ -21,7 +21,7 @@ SAME_MIRROR = 1e-3
 """Two lines of mirroring coincide if twice their angle is at most this (rad)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Mirrored:
     """Positions, and in the same order the earlier positions whose plans theirs mirror."""
 

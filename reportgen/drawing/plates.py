@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate
 
+from reportgen.base.records import record
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import GAP, PlacedScene, headed
 
@@ -16,7 +17,7 @@ DUST = 1e-6
 """Rounding of places (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Arranged:
     """The scenes of a plate in rows, by their numbers, with the width and height (mm) of all below its head."""
 

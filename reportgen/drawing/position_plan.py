@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -44,7 +44,7 @@ BEYOND = 3.0
 """Length (mm) of a normal beyond the centre."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PositionPlan:
     """Contents of a position plan.
 
@@ -141,7 +141,7 @@ def _position_facts(linkage: Linkage, motion: Motion, shows: PositionPlan, count
     return tuple(facts)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnCentre:
     """The instant centre of a link, at `at` (mm), where the normals of the velocities of two `points` meet."""
 
@@ -150,7 +150,7 @@ class DrawnCentre:
     points: tuple[str, str]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlaneMotion:
     """A link in plane motion by its points: their velocities (any size), and the names of their angles with
     the link.
@@ -229,7 +229,7 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SwingMarks:
     """Construction of both ends of a pin's path (m): the crank's `centre`, the rocker's `pivot`, the pin's `ends`.
 

@@ -7,12 +7,13 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from itertools import combinations
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
@@ -27,7 +28,7 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.spring_geometry import Coil
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Slide:
     """A block of `link` at its point `name` on a guide of link `on`, along `angle` (rad) from `low` to `high` (mm)."""
 
@@ -42,7 +43,7 @@ class Slide:
     """True if the block is a separate link, pinned at its middle; False if it is the end of a longer link."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Skeleton:
     """Points (mm) by name, joints of each moving link, slides, ground pivots.
 
@@ -156,7 +157,7 @@ def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
 # --- drawings -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Looks:
     """Drawing options of a machine.
 
@@ -293,7 +294,7 @@ def link_facts(bones: Skeleton, links: Sequence[int]) -> Iterator[Fact]:
         yield fact("pivots", standing)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinkShape:
     """A link drawn in its own frame (mm): the guide it carries, its bars, its block, in painting order."""
 

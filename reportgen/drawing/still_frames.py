@@ -13,6 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, style
 from reportgen.drawing.animation import (
@@ -49,7 +50,7 @@ CLEAR = 0.25
 """Gap between two labels (mm)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Moment:
     """A sample of an animation's cycle, from 0."""
 
@@ -124,7 +125,7 @@ def _drawn(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> It
                 yield Line(start, end + item.beyond * unit(end - start), pen)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Request:
     """Requested label, its places in order of preference, and whether it is placed before others."""
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import record
 from reportgen.drawing import Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import direction, fact
@@ -25,7 +25,7 @@ BEYOND = 6.0
 """Length (mm) of the line of a leg beyond the special point."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TemplateCurve:
     """Places on paper (mm) of the outer joints and of the joints of the plate as assembled.
 

@@ -10,10 +10,11 @@ import cmath
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from typing import Generic, Literal, TypeVar
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
@@ -55,12 +56,11 @@ NEIGHBOUR = 3.0
 APART = 30.0
 """Largest distance of their middles in a shared inset (mm)."""
 
-
 Corner = TypeVar("Corner")
 Placed = TypeVar("Placed")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlanVector(Generic[Corner]):
     """Arrow of a plan; `label` is printed beside it, `name` identifies it for measurements."""
 
@@ -84,7 +84,7 @@ class PlanVector(Generic[Corner]):
         return abs(self.end - self.start)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlanPoint(Generic[Corner]):
     """A named point of a plan: the pole, the end of a vector, a vertex."""
 
@@ -93,7 +93,7 @@ class PlanPoint(Generic[Corner]):
     stage: int = 0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlanLine(Generic[Corner]):
     """An auxiliary direction drawn from `start` through `end` and a little beyond."""
 
@@ -102,7 +102,7 @@ class PlanLine(Generic[Corner]):
     stage: int = 0
 
 
-@dataclass(frozen=True)
+@record
 class Construction(Generic[Corner]):
     """Vectors, named points and auxiliary directions between corners: places (mm) or only names.
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.formula import (
     Call,
     Expression,
@@ -89,7 +89,7 @@ def root(of: Algebraic) -> Algebraic:
     return _sympy().sqrt(of)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Plane:
     """A vector of the plane, by its components; it multiplies as a complex number."""
 

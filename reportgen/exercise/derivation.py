@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from reportgen.base.records import record
 from reportgen.exercise.instant_centres import Layout
 from reportgen.exercise.point_positions import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.rate_solution import InstantMotion
@@ -19,7 +20,7 @@ from reportgen.formula.calculation import Calculation, Family, is_short
 # --- steps, as data for the page ----------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Vector:
     """A vector: the id of its magnitude, which is positive, and its unit direction."""
 
@@ -27,7 +28,7 @@ class Vector:
     direction: complex
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DerivationEquation:
     """Σ left = Σ right, as vectors; `unknown` are the ids of the two vectors whose magnitudes are not known yet."""
 
@@ -39,7 +40,7 @@ class DerivationEquation:
 Letter = Literal["ξ", "η", "x", "y"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Axis:
     """An axis through a point, on which vectors are projected; `direction` is its unit vector.
 
@@ -61,7 +62,7 @@ COORDINATES: tuple[tuple[complex, Letter], ...] = ((1 + 0j, "x"), (1j, "y"))
 """The coordinate axes, each by its direction and its letter."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Step:
     """A step for a body and points, with the ids of the lines that it computes; `kind` is the key of its text."""
 

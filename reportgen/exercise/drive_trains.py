@@ -11,9 +11,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import permutations
 
+from reportgen.base.records import record
 from reportgen.exercise import file
 from reportgen.exercise.acceleration_steps import Parts
 from reportgen.exercise.derivation import Derivation, Step, Vector
@@ -23,7 +23,7 @@ from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, ids, signed, total, vocabulary
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pair:
     """Two discs on an arm, each with its centre and the point of its rim where it meets the other disc or the belt."""
 
@@ -132,7 +132,7 @@ def by_rims(parts: Parts) -> bool:
     return False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Node:
     """The centre of a disc or a point of contact, with the point whose acceleration it shares along the racks.
 

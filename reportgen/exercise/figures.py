@@ -5,10 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
@@ -47,7 +48,7 @@ ARROWS_APART = 3.2
 # --- a system in mm, and its scene ----------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnRail:
     """A point guided along a direction; on the ground, its guide has walls and the block of a slider is drawn."""
 
@@ -56,14 +57,14 @@ class DrawnRail:
     on_ground: bool
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnDisc:
     centre: complex
     radius: float
     fixed: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnGround:
     """Ground that a disc rolls on, at the point of contact; `out` points into the ground."""
 
@@ -71,7 +72,7 @@ class DrawnGround:
     out: complex
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnRotation:
     """The arrow of a body's rotation about a point; `sense` is positive anticlockwise."""
 
@@ -80,7 +81,7 @@ class DrawnRotation:
     symbol: Content
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnSystem:
     """A system to draw, in mm of paper about any origin.
 

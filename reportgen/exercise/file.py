@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
+from reportgen.base.records import record
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import Name
 from reportgen.catalogue.linkage_file import MOST_NAMES
@@ -285,7 +285,7 @@ class FromRest(Part):
 GivenRate = Annotated[VelocityOf | AccelerationOf | OmegaOf | EpsilonOf | FromRest, Field(discriminator="type")]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Asked:
     """A quantity to be found: `v`, `a` of a point; `omega`, `eps`, `centre` of a body."""
 
@@ -306,7 +306,7 @@ class Asked:
         return int(self.of)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AskedId(Reader):
     """Text of a requested quantity: v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
 

@@ -9,12 +9,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.catalogue.vector_components import VectorComponents
 from reportgen.exercise import file
 from reportgen.exercise.chain_derivatives import ACCELERATION, RATES, VELOCITY, derivative
@@ -59,7 +59,7 @@ from reportgen.formula.evaluation import evaluate
 STRAIGHT = Number(180.0, unit="°")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MotionLaw:
     """Position of a point (m) as a function of its body's angle φ: four complex coefficients."""
 

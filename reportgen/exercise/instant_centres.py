@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from reportgen.base.records import record
 from reportgen.exercise import file
 from reportgen.exercise.point_positions import Geometry, parallel, perpendicular, unit
 from reportgen.exercise.rate_conditions import GROUND
@@ -23,7 +24,7 @@ SAME_PLACE = 1e-9
 LETTERS = "PQIK"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class InstantCentre:
     """The instant centre of a body: the rule that gives it, its name and position (m), and the points whose normals
     meet there.

@@ -10,13 +10,13 @@ import ast
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import singledispatch
 from typing import Any
 
 import numpy as np
 
 from reportgen.assignment.fields import Quantity, Reader, fault
+from reportgen.base.records import record
 from reportgen.base.units import Given, QuantityFault, read_quantity
 from reportgen.formula import Expression, Fraction, Negative, Number, Power, Product, Ref, Root, Sum, Symbol
 from reportgen.formula.evaluation import evaluate
@@ -38,14 +38,14 @@ Powers = tuple[float, float]
 NOTHING = Number(0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Literal(Given):
     """A quantity stated by symbols."""
 
     formula: Expression = NOTHING
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Substitution:
     """Value of a symbol; with `put_in` False the answer stays an expression of the symbol."""
 
@@ -57,7 +57,7 @@ class Substitution:
 Symbols = Mapping[str, Substitution]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SymbolValue(Reader):
     """A quantity of any kind, or {drawn: 100 mm} for a value that stays a symbol in the answer."""
 
@@ -86,7 +86,7 @@ class SymbolValue(Reader):
         return {"anyOf": [text, drawn]}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SymbolName(Reader):
     """Name of a symbol: letters, then at most two digits: r, v1, omega."""
 
@@ -114,7 +114,7 @@ FORMULA = rf"^(?=.{{1,{LONGEST}}}$){_WITH_A_SYMBOL} *{_sums(MOST_NESTED)} *$"
 _FORMULA = re.compile(FORMULA)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Stated:
     """Text of a file with symbols, before it is parsed."""
 
@@ -122,7 +122,7 @@ class Stated:
     symbols: Symbols
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Told(Reader):
     """A quantity, as a number with its unit or as a formula of symbols."""
 

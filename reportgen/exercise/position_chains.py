@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
+from reportgen.base.records import record
 from reportgen.exercise import file
 from reportgen.exercise.derivation import Derivation, angle
 from reportgen.exercise.instant_centres import SAME_PLACE
@@ -39,14 +40,14 @@ HALF_TURN = math.pi
 SAME_ANGLE = 1e-9
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Turn:
     """The angle of a body; a rod that only keeps two points apart has a number that the file does not use."""
 
     body: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SlideTravel:
     """The travel of a point along a straight line, by the number of the line."""
 
@@ -56,7 +57,7 @@ class SlideTravel:
 GeneralizedCoordinate = Turn | SlideTravel
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Direction:
     """A direction that turns with a body, at `offset` (rad) from its φ; on the ground, from the x-axis."""
 
@@ -64,7 +65,7 @@ class Direction:
     offset: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CoordinateRate:
     """The derivative of a coordinate, or the speed of a point if that is not a coordinate."""
 
@@ -72,7 +73,7 @@ class CoordinateRate:
     order: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoopVector:
     """A vector of a loop or of its derivative: a length along a direction turned by right angles.
 
@@ -90,7 +91,7 @@ class LoopVector:
         return replace(self, length=minus(self.length), value=-self.value)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Place:
     """Position of a point: the coordinates of a fixed point and a chain of legs from there."""
 
@@ -101,7 +102,7 @@ class Place:
         return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.slide)))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Closure:
     """A point reached by two chains; the loop runs outward along one and back along the other."""
 
@@ -110,7 +111,7 @@ class Closure:
     back: Place
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StraightPath:
     """A point that slides along a straight line: the point, its body, the body of the line and its unit direction."""
 

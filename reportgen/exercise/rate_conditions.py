@@ -11,11 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
+from reportgen.base.records import record
+
 GROUND = 0
 """The number of the body at rest, the ground."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Rates:
     """The rates of a body: ω (rad/s) and v₀ (m/s) of its point at the origin, or ε (rad/s²) and a₀ (m/s²)."""
 
@@ -53,7 +55,7 @@ def no_drift(_: Velocities) -> float:
     return 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Component:
     """The component along the unit `direction` of the rate of a point (m) that moves with a body."""
 
@@ -62,7 +64,7 @@ class Component:
     direction: complex
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Condition:
     """Σ components + Σ factor · turn = value, by body; a value of None puts no condition on that rate.
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
@@ -323,7 +324,7 @@ def lettered(formula: Expression) -> Expression:
 # --- axes: one number for each line, in the text as in the figures ---------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnAxis:
     """An axis of projection towards `direction`, from `start` to `end` of its points (mm), which may coincide."""
 

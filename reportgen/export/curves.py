@@ -6,7 +6,7 @@ import cmath
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,6 +14,7 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Location, NotOfferedError
+from reportgen.base.records import record
 from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
 from reportgen.base.words import as_error, word
 from reportgen.case import Case, DriverMotion
@@ -46,7 +47,7 @@ def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
     return replace(counted(assignment), parts=parts)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Measured:
     """A column of a table of measured values of one quantity.
 

@@ -7,7 +7,6 @@ name of its drawing: machine, v, R23; the name of a part precedes it: cam.cam.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, partial
 from xml.sax.saxutils import escape
 
@@ -15,6 +14,7 @@ import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
 from reportgen.base.output_formats import chosen, names, rows
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, bounded
@@ -37,7 +37,7 @@ MOVING_DPI = 110
 """Dots per inch of animations."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MovingFigure:
     """A named animation: one pane of an animated panel."""
 
@@ -74,7 +74,7 @@ class MovingFigure:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FigureQuery:
     """Selection of figures and their form: all without `names`; with `labels`, those of the first matching position.
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, DriverMotion
@@ -61,7 +61,7 @@ class QuantityArray(np.ndarray):
         return plain[()] if return_scalar else plain
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class CaseQuantity:
     """A quantity of a case, or of one of its parts."""
 

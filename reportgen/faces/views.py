@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids
@@ -16,7 +16,7 @@ from reportgen.report.topic_views import ViewHooks, always
 
 
 @view("lines", "ends")
-@dataclass(frozen=True, slots=True)
+@record
 class WideSlider:
     """A slider with its face: its reaction's `digits`, its pin, the ids of the face's given ends.
 

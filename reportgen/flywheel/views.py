@@ -6,10 +6,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
@@ -147,7 +148,7 @@ def cycle_table(report: ReportContext, key: str, caption: str, head: Sequence[st
 
 
 @view()
-@dataclass(frozen=True, slots=True)
+@record
 class Range:
     """The least and the greatest value of a quantity over the cycle, with their positions."""
 

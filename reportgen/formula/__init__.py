@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial, reduce
 from operator import mul
 from typing import Any, Literal, cast
 
+from reportgen.base.records import record
 from reportgen.base.units import rounded
 
 
@@ -71,7 +72,7 @@ class _Algebra:
         return Call("abs", (_node(self),))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Symbol(_Algebra):
     """A printed symbol: base letter(s) with upright subscript and superscript.
 
@@ -86,7 +87,7 @@ class Symbol(_Algebra):
     value: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Number(_Algebra):
     """A number as printed: `value` is in the printed `unit`, with `decimals` (None: exact, printed unchanged)."""
 
@@ -105,35 +106,35 @@ class Number(_Algebra):
         return 0.0 if self.decimals is None else 0.5 * 10.0**-self.decimals
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Ref(_Algebra):
     """Another quantity of the ledger, by its id."""
 
     id: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sum(_Algebra):
     """A sum; a `Negative` term is printed with a minus."""
 
     terms: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Product(_Algebra):
     """A product of factors, in printed order."""
 
     factors: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Negative(_Algebra):
     """An expression with a minus before it."""
 
     of: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fraction(_Algebra):
     """A quotient of two expressions."""
 
@@ -141,7 +142,7 @@ class Fraction(_Algebra):
     bottom: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Power(_Algebra):
     """A base raised to an exponent."""
 
@@ -149,14 +150,14 @@ class Power(_Algebra):
     exponent: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Root(_Algebra):
     """A square root."""
 
     of: Expression
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Call(_Algebra):
     """A function of `evaluation.FUNCTIONS`, by its name: sin, cos, …, or a construction of plane geometry."""
 
@@ -164,14 +165,14 @@ class Call(_Algebra):
     arguments: tuple[Expression, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Matrix(_Algebra):
     """A matrix or column (rows of one entry) of a displayed equation; it has no single value."""
 
     rows: tuple[tuple[Expression, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Chain(_Algebra):
     """A worked line: formula = substitution = result.
 
@@ -183,7 +184,7 @@ class Chain(_Algebra):
     note: str = ""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Term:
     """A vector of a vector equation and the known facts about it.
 
@@ -196,7 +197,7 @@ class Term:
     sign: int = 1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class VectorEquation(_Algebra):
     """Sides of a vector equation joined by "="; `rows` below each term show the known facts about it."""
 

@@ -14,11 +14,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.formula import Call, Expression, Number, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, KeyChapter, QuantityKind
@@ -61,7 +61,7 @@ CONSTRUCTIONS = frozenset(
 """Functions that represent drawing and measuring: a definition with one of them is not printed as a formula."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Family:
     """One quantity at all positions.
 

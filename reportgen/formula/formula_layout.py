@@ -8,12 +8,13 @@ here, too: a fraction of a sum becomes 1/denominator times the sum, which breaks
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import repeat
 from typing import Literal
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of, unit_names
+from reportgen.base.records import record
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.formula import (
     Call,
@@ -52,7 +53,7 @@ a last one before 0."""
 # --- parts ----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Sign:
     """A sign between two parts, or before one."""
 
@@ -67,7 +68,7 @@ class Sign:
         return f"{self.of} " if self.role == "separator" else f" {self.of} "
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Written:
     """A number as printed in the digits of a language, and its unit."""
 
@@ -84,14 +85,14 @@ class Written:
         return self.unit not in UNSPACED
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MathRow:
     """Parts side by side."""
 
     parts: tuple[Part, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Raised:
     """A base with an exponent."""
 
@@ -99,7 +100,7 @@ class Raised:
     exponent: Part
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Quotient:
     """A fraction with a bar."""
 
@@ -107,14 +108,14 @@ class Quotient:
     bottom: Part
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Radical:
     """A square root."""
 
     of: Part
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Fence:
     """A group that neighbouring signs treat as one piece; its delimiters are "" if it is clear without them."""
 
@@ -123,7 +124,7 @@ class Fence:
     right: Literal[")", "]", "|", ""]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Function:
     """A function before its argument, which is in a fence unless it is one letter.
 
@@ -135,21 +136,21 @@ class Function:
     to: Part
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Grid:
     """The entries of a matrix, by rows."""
 
     rows: tuple[tuple[Part, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Note:
     """A reason, printed in parentheses behind a line."""
 
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Parenthesis:
     """A parenthesis of a sum that continues over several lines; `tall` beside terms higher than a line."""
 
@@ -410,7 +411,7 @@ def short_end(row: Expression) -> bool:
 # --- vector equations -----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TermColumn:
     """A column of a vector equation: the signs before a term, the term, and its entries in the equation's rows."""
 

@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import rounded
 from reportgen.formula import (
     Call,
@@ -49,7 +50,7 @@ Entered = Callable[[str, dict[str, np.ndarray]], None]
 """Callback after each quantity of an evaluation, with its id and all values so far (SI), [1], [N] or [cases, N]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PrintedQuantity:
     """A family at one position, as printed: `value` in `unit` with `decimals`.
 

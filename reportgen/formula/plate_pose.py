@@ -9,10 +9,10 @@ rows (e_j, m_j) is 0 where the lines of the legs meet in one point or are parall
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.formula.constructions import Value, cross
 
 EXACT = 1e-13
@@ -21,7 +21,7 @@ SAME = 1e-7
 """Two poses nearer than this, relative to the longest leg, are one; a pose is found with the square of it."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Rows:
     """The equations of the pose: unit vectors along the legs, their moments about d (m), the misses of length (m)."""
 

@@ -11,25 +11,25 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from enum import StrEnum
 from functools import cache, lru_cache
 from importlib import import_module
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.topics import PACKAGE, topics
 from reportgen.formula import Symbol, ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.ids import Name
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class QuantityKind:
     """Printing rules of a kind of quantity: SI value = printed value × `scale`.
 
-    `digits` are the significant figures of the largest computed value. `decimals`, if given, is the usual precision
-    of the kind instead (0.01 mm for a length on paper).
+    `digits` are the significant figures of the largest computed value; `decimals`, if given, are used instead.
     """
 
     unit: str
@@ -204,7 +204,7 @@ class KeyChapter(StrEnum):
     vars().update({name: name for name in topics()})
 
 
-@dataclass(frozen=True)
+@record
 class VocabularyRow:
     """A family of ids, or a single one.
 

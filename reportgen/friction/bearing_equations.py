@@ -12,13 +12,13 @@ converge.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import chain, combinations, islice
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import record
 
 MOST_STEPS = 40
 """Newton's method converges in ten steps or not at all."""
@@ -30,7 +30,7 @@ MOST_PATTERNS = 1024
 """Largest number of choices of sides that are tried: enough for all choices of ten faces."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class BearingEquations:
     """The reactions (N) [T] that press joints at positions [N]: a = `base` [T, N], b = `slope` [T, J, N].
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Annotated, Any
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Coordinate, Decimal, Interval, Length, Offset, Quantity, Reader, Whole, quantity
+from reportgen.base.records import record
 from reportgen.base.units import Given
 
 TASKS = ("incline", "wedge", "screw", "belt", "band", "shoe")
@@ -14,7 +14,7 @@ HORIZONTAL = "horizontal"
 TOWARDS = quantity("deg", least=-89, most=89, tiny=1e-6)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Towards(Reader):
     """The angle of a force from the plane, or `horizontal` (None)."""
 

@@ -11,10 +11,10 @@ their rounds; those of a round give the next torque by the balance of power,
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.derivation.equation_sides import scheme, sides
 from reportgen.derivation.kinematic_entries import natural_sizes
@@ -35,7 +35,7 @@ MOST_ROUNDS = 12
 """Largest number of rounds that are entered; only positions close to locking need more."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RubbingJoint:
     """A joint with friction, the digits of its reaction and the id of ρ or f."""
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.drawing import Arc, Arrow, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import arrow, direction, fact
@@ -27,7 +27,7 @@ DETAIL = 26.0
 """The length (mm) of the greatest force in a drawing of a guide."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FaceForce:
     """The force of a guide (N) on an end of a slider's face: `across` the guide, and `along` it against the sliding.
 
@@ -76,7 +76,7 @@ def any_tilts(report: ReportContext) -> bool:
 # --- drawings of a guide ----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Leaning:
     """A force of a guide with its components across and along it (N), and its place (mm).
 

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
@@ -58,7 +59,7 @@ class Teeth(NamedTuple):
     z3: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Demand:
     """A demand: a ratio u₁H within a relative tolerance, a number of satellites, limits of tooth numbers, and m/m₂.
 
@@ -88,7 +89,7 @@ class Demand:
         return missed
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Train:
     """Tooth numbers in a scheme, with their ratio and the quantities in the conditions."""
 

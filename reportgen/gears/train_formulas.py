@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
+from reportgen.base.records import record
 from reportgen.formula import Expression, Number, Product, Ref, Symbol, signed
 from reportgen.formula.evaluation import evaluate
 
@@ -18,7 +18,7 @@ WHEELS = ("1", "2", OTHER, "3")
 """Wheels in the order of their numbers of teeth."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TrainScheme:
     """Scheme of a train: flags of the inner wheels that mesh with satellites; a `single` satellite meshes with both."""
 

@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.handin.invisible_text import Styles, first_of, looks_of
 from reportgen.handin.word_nodes import XmlNode
 
@@ -55,7 +55,7 @@ def covered_runs(tree: XmlNode, styles: Styles) -> Iterator[XmlNode]:
             )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Reach:
     """The vertical range (mm below the top of its paragraph) that an object covers, and its right end (mm)."""
 

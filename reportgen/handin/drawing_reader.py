@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import record
 from reportgen.base.units import MM
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
@@ -38,7 +39,7 @@ USUAL = (1.0, 10.0, 1000.0, 25.4)
 """Common drawing units (mm), which are tried if the unit that the file names gives no plans."""
 
 
-@dataclass(frozen=True)
+@record
 class DrawnLocation(Location):
     """The start of a vector in a drawing (`at`) and its right end (`right`), both in drawing units of `unit` mm.
 

@@ -12,6 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Location
+from reportgen.base.records import record
 from reportgen.handin.dxf_lines import encoding_of
 from reportgen.handin.dxf_tags import PAPER, Tags, pairs
 from reportgen.workbook.zip_package import RefusedError
@@ -32,7 +33,7 @@ _LINKS = frozenset({102, 330, 360, 1000, 1001, 1002, 1003, 1005, 1070, 1071, 104
 """Codes that a copy of a layer omits, because they link to other objects."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RedVector:
     """The right vector from the start of the student's vector (drawing units), and the lines of text at its middle.
 

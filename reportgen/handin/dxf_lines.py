@@ -16,6 +16,7 @@ from itertools import pairwise
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import record
 from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
 from reportgen.workbook.zip_package import RefusedError
 
@@ -31,7 +32,7 @@ BARB = 0.1
 """Length of the strokes of an arrowhead that an entity draws itself, as a share of its line."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DrawnText:
     """A text with its start or, depending on its alignment, its middle, and the height of its letters, in one unit.
 
@@ -107,7 +108,7 @@ def encoding_of(header: Mapping[bytes, bytes]) -> str:
 # --- blocks ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Affine:
     """The map z → a z + b z̄ + c of points of any shape (drawing units); a and b are dimensionless."""
 
@@ -123,7 +124,7 @@ MIRROR = Affine(0.0, -1.0)
 """The plane of an entity whose own z axis points away from the viewer."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Insertion:
     """An inserted block: its name, and a map to the drawing for each of its copies."""
 
@@ -269,7 +270,7 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
     return Pieces(np.array(lines, dtype=complex).reshape(-1, 2), texts, insertions)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Corner:
     """A vertex of a polyline, the widths at both ends of the segment that begins there, and True if it is an arc."""
 

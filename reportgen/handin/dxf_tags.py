@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Location
+from reportgen.base.records import record
 from reportgen.workbook.zip_package import RefusedError
 
 LARGEST = 50_000_000
@@ -36,7 +37,7 @@ _FROZEN = 1
 Tags = list[tuple[int, bytes]]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Entity:
     """An entity: its type, its pairs in order, and the line of the file where it begins."""
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.case.answer_key import Key
@@ -45,7 +45,7 @@ LARGEST = 50_000_000
 """Largest size (bytes) of a file."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FileKind:
     """A kind of file: functions that read it for a key, find names in it, and write a marked copy.
 

@@ -8,10 +8,10 @@ themselves, and a plan uses either (`plan_fit.py`).
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.handin.arrowheads import arrowheads
 from reportgen.handin.line_set import Lines, close_pairs
 
@@ -42,7 +42,7 @@ def distinct(ends: np.ndarray) -> np.ndarray:
     return ends[kept]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Run:
     """Pieces in sequence: the first and the last end (mm), and the inner ends as (piece, end)."""
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import MM
 from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.kinematic_entries import What
@@ -24,7 +25,7 @@ PAIR = 2
 _PARTS = {"n": "n", "τ": "t", "k": "k", "r": "r"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ShapeVector:
     """A vector of a plan between two of its corners, with the ids of its length and, if it has one, its direction.
 
@@ -70,7 +71,7 @@ class PlanShape:
         return self.corners[[vector.end for vector in self.vectors]]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SketchedVector:
     """A vector of a plan between two corners, by their ids; otherwise like a `ShapeVector`."""
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from reportgen.base.languages import decimal_mark, typed_units
+from reportgen.base.records import record
 from reportgen.base.typed_characters import SPACES
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.answer_key import KeyRow
@@ -38,7 +38,7 @@ _BRACES = re.compile(r"[{}]")
 _JOINED_UNIT = re.compile(r"\s*([/·*])\s*")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Marks:
     """The decimal mark of a text, and True if it uses both marks."""
 

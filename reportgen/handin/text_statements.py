@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.handin.symbol_matching import Symbols, bare
 from reportgen.handin.text_numbers import NUMBER, UNIT
 from reportgen.handin.word_patterns import HAN, any_of, label_of, labelled_position
@@ -78,7 +78,7 @@ _GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "ln", "π", "pi", "x"})
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Statement:
     """A symbol and the text up to the next one.
 
@@ -105,7 +105,7 @@ class Statement:
         return list(_clauses(self.text))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StatedValue:
     """The number of a statement: its text and unit as written, its index in the line, the words after it."""
 

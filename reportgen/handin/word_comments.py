@@ -8,9 +8,9 @@ from __future__ import annotations
 import io
 import zipfile
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from xml.sax.saxutils import escape, quoteattr
 
+from reportgen.base.records import record
 from reportgen.handin.word_file import TEMPLATE, WordFile
 from reportgen.handin.word_nodes import XmlNode, parse
 
@@ -27,7 +27,7 @@ _PACKED = (".png", ".jpg", ".jpeg", ".gif", ".mp4")
 _MOMENT = (1980, 1, 1, 0, 0, 0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MarginNote:
     """A text for the margin, at the element of the main text with this `XmlNode.number`.
 
@@ -38,7 +38,7 @@ class MarginNote:
     element: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Change:
     """Bytes that replace the bytes of a part from `start` to `end`."""
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import KeyRow
 from reportgen.handin import text_statements as said
@@ -40,7 +40,7 @@ Statements = Callable[[TextLine, str | None], None]
 TextCells = Sequence[Sequence[TextCell]]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Quantity:
     """A cell that names a quantity: its rows and its unit; None for a unit that is not understood."""
 

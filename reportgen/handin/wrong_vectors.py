@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.handin.line_repair import goes_on
 from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_finder import FoundPlans
@@ -132,7 +133,7 @@ class _Search:
         return drawn[0] if apart <= 2 * self.lines.reach else None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Begun:
     """A line as a vector from its start (mm), and True if it has an arrowhead at its end."""
 

@@ -9,8 +9,9 @@ linkage, `machine.force_analysis` its forces.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import dataclass
 from typing import Literal
+
+from reportgen.base.records import record
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
 
@@ -18,7 +19,7 @@ GROUND = 0
 DRIVER = 1
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Guide:
     """A straight guide fixed in the frame of `link`: a line through `at` (m) in the direction `angle` (rad)."""
 
@@ -27,7 +28,7 @@ class Guide:
     link: int = GROUND
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Crank:
     """The rotating driver, a crank of the `length` (m): link 1 turns about the ground point `centre`; its frame points
     to `pin`.
@@ -38,7 +39,7 @@ class Crank:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SlidingDriver:
     """The sliding driver: link 1 moves along `guide`; its `pin` is at the guide's `at` plus s·e^{i angle}, s in m."""
 
@@ -46,7 +47,7 @@ class SlidingDriver:
     guide: Guide
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinkPoint:
     """A named point at `local` (m) in a moving link's frame: a mass centre, coupler point or pin of a later dyad."""
 
@@ -55,7 +56,7 @@ class LinkPoint:
     local: complex
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Dyad:
     """An Assur group of class II: links i, j = `links`, two outer joints and the inner joint `middle`.
 
@@ -94,7 +95,7 @@ class Dyad:
     slide_angle: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TriadLeg:
     """A rod of a triad: `link` of the `length` (m), from the placed point `outer` to the joint `inner` on the plate."""
 
@@ -104,7 +105,7 @@ class TriadLeg:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Triad:
     """An Assur group of class III (3RRR): a ternary link, the `plate`, on three legs.
 
@@ -142,7 +143,7 @@ class Triad:
 Group = Dyad | Triad
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Inertia:
     """Mass, mass centre (a named point of the link) and moment of inertia about it; kg, kg·m²."""
 
@@ -152,7 +153,7 @@ class Inertia:
     moment: float = 0.0
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Linkage:
     """A whole mechanism.
 
@@ -212,7 +213,7 @@ def under(name: str, link: int, taken: Collection[str]) -> str:
 # --- joints and freedom ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Joint:
     """A lower pair: "R" revolute or "P" prismatic, between `links` at the named `point`.
 
@@ -226,7 +227,7 @@ class Joint:
     group: tuple[int, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Mobility:
     """W = 3n − (2t + c) + r − s: n moving links, t lower and c higher pairs, r passive constraints, s
     redundant freedoms; with the joints, the groups and the mechanism's class.

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.formula import Chain, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Linkage
@@ -25,7 +26,7 @@ Derived = TypeVar("Derived")
 Subject = TypeVar("Subject")
 
 
-@dataclass(frozen=True)
+@record
 class GasState:
     """The gas in one cylinder over positions [N]: cycle angle (rad), s/H, stroke number 0…3, gauge pressure (Pa)."""
 
@@ -78,7 +79,7 @@ class Analysis:
         return summarise(self.machine)
 
 
-@dataclass(frozen=True)
+@record
 class Summary:
     """The cycle as a whole, from continuous quadrature: mean torque (N·m), power (W), work of the loads (J).
 
@@ -270,7 +271,7 @@ def no_formulas(q: Calculation) -> None:
     """Enter nothing: the default for a machine without closed formulas."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ClosedFormulas:
     """The closed formulas of a machine: `write` enters them in the calculation after the plans.
 
@@ -283,7 +284,7 @@ class ClosedFormulas:
     equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Machine:
     """A mechanism with its drive, its loads and the outline of its report.
 

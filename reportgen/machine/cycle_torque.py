@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 
 SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) count as one angle."""
 
 
-@dataclass(frozen=True)
+@record
 class CycleTorque:
     """Legendre polynomials between rising cycle angles `edges` [n + 1] (rad), by their `coefficients` [n, k] (N·m)."""
 

@@ -7,11 +7,11 @@ on the links that it hangs on. The work of the same loads gives the torque a sec
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import record
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Joint, Linkage, joints
 from reportgen.machine.group_equilibrium import NO_FORCE, DyadEquilibrium, TriadEquilibrium, Wrench, equilibrium_of
@@ -19,7 +19,7 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.rigid_motion import cross, dot, solve2
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Load:
     """A force (N) at a point (m) of a link, and a couple (N·m); arrays over positions [N]."""
 
@@ -119,7 +119,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
     return -power / motion.rate
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Reaction:
     """The force of one link on another (N) [N] and, in a guide, its moment (N·m) [N] about the joint's point.
 
@@ -132,7 +132,7 @@ class Reaction:
     moment: Floats
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Forces:
     """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the driver.
 
@@ -156,7 +156,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
     return Equilibrium.of(linkage, motion).under(loads)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Equilibrium:
     """The equations of equilibrium of a linkage at the positions of a motion; `under` solves them for any loads."""
 

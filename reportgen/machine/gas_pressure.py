@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import pairwise
 from typing import Literal, get_args
 
@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 from reportgen.formula import Expression, Fraction, Symbol
 from reportgen.machine.quadrature import gauss
 
@@ -57,7 +58,7 @@ def _within(cycle_angle: ArrayLike) -> Floats:
     return np.maximum(turned, 0.0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Tabled:
     """A table as given: sizes (SI) at nodes, in a row for each stroke or in one for the whole cycle.
 
@@ -70,7 +71,7 @@ class Tabled:
     rows: tuple[tuple[float, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Bracket:
     """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape [N].
 
@@ -120,7 +121,7 @@ Branch = tuple[tuple[float, ...], tuple[float, ...]]
 """The line of a stroke in a diagram: fractions s/H and the pressures (Pa) there."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class StrokeIndicator:
     """Four rows of pressure (Pa) over the same fractions s/H, which rise from 0 to 1; linear between.
 
@@ -195,7 +196,7 @@ class StrokeIndicator:
         return float(area * stroke * np.dot(OUTWARD, means))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AngleIndicator:
     """Pressures (Pa) at cycle angles (rad) that rise from 0 to 4π; linear between.
 

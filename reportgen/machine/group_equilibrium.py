@@ -8,12 +8,12 @@ class II, twelve for the four links and six joints of a group of class III.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import record
 from reportgen.machine import Dyad, Group, Joint, Triad
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.rigid_motion import cross
@@ -62,7 +62,7 @@ def _reach(joints: Iterable[Joint], pole: Complexes, motion: Motion) -> float:
 # --- groups of class II ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Inner:
     """The inner joint of a dyad, at the `pole` of its moments.
 
@@ -83,7 +83,7 @@ class _Inner:
         return turned.real, turned.imag + 1j * (moment / self.length)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Outer:
     """An outer joint of a dyad, whose two unknowns x and y are one complex number x + iy [N].
 
@@ -124,7 +124,7 @@ class _Outer:
             return cls(joint, at, direction, inner.length, z / size**2, 1j * z / size)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DyadEquilibrium:
     """The equations of a group of class II of any kind.
 
@@ -196,7 +196,7 @@ def _resultant(wrenches: Sequence[Wrench], pole: Complexes) -> tuple[Complexes, 
 # --- groups of class III --------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TriadEquilibrium:
     """The twelve equations of a group of class III, solved in one batch.
 

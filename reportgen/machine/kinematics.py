@@ -8,7 +8,7 @@ loops; positions that cannot be assembled are nan.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import fields
 from functools import lru_cache
 from typing import TypeVar
 
@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import record
 from reportgen.formula.constructions import SquareRoot, along_line, circle_circle
 from reportgen.machine import (
     DRIVER,
@@ -46,7 +47,7 @@ RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0
 # --- groups ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Assembled:
     """A group in motion: its middle point, its two links with their frames' origins, its slides."""
 
@@ -185,7 +186,7 @@ Places = NDArray[np.int64] | slice
 Arrays = TypeVar("Arrays", LinkMotion, PointMotion, SlideMotion)
 
 
-@dataclass(frozen=True)
+@record
 class Motion:
     """The motion of every link, named point and slide over positions [N].
 
@@ -402,7 +403,7 @@ class _State:
 def _take(motion: Arrays, kept: Places) -> Arrays:
     if isinstance(kept, slice):
         return motion
-    return type(motion)(*(getattr(motion, name)[kept] for name in type(motion).__slots__))
+    return type(motion)(*(getattr(motion, field.name)[kept] for field in fields(motion)))
 
 
 def _continuous(angle: Floats) -> Floats:

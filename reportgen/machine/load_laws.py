@@ -10,13 +10,14 @@ from __future__ import annotations
 import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags, Floats
+from reportgen.base.records import record
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine.gas_pressure import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
@@ -38,7 +39,7 @@ MotionAt = Callable[[Floats], Motion]
 """Function that returns the machine's motion at rising cycle angles [N] (rad)."""
 
 
-@dataclass(frozen=True)
+@record
 class Stroke:
     """The travel of the slider `link` between its dead centres; the link `rod` joins its `pin` to `crank_pin`.
 
@@ -163,7 +164,7 @@ class Law(ABC):
         return None
 
 
-@dataclass(frozen=True)
+@record
 class TableLaw(Law):
     """A table interpolated by a slider's own cycle angle and s/H.
 
@@ -211,7 +212,7 @@ class TableLaw(Law):
         return self.course
 
 
-@dataclass(frozen=True)
+@record
 class GasLaw(TableLaw):
     """The gas on a piston: the pressure p (Pa) in the table times the piston's area F (m²), P = p F."""
 
@@ -229,7 +230,7 @@ class GasLaw(TableLaw):
         return None if p is None else p * q["F"]
 
 
-@dataclass(frozen=True)
+@record
 class ListedLaw(Law):
     """`values` (N or N·m) at `nodes`, linear between them; subclasses define the quantity of the nodes."""
 
@@ -246,7 +247,7 @@ class ListedLaw(Law):
         return len({*self.values}) == 1
 
 
-@dataclass(frozen=True)
+@record
 class AngleLaw(ListedLaw):
     """Values over cycle angles (rad) from 0 to the end of the cycle; there the last one is followed by the first."""
 
@@ -268,7 +269,7 @@ class AngleLaw(ListedLaw):
         return Tabled(Symbol("φ"), "angle", self.nodes, (self.values,))
 
 
-@dataclass(frozen=True)
+@record
 class TravelLaw(ListedLaw):
     """Values over the travel (m) of a sliding driver from its start; the whole travel `span` (m) is not a cycle."""
 
@@ -289,7 +290,7 @@ class TravelLaw(ListedLaw):
         return Tabled(Symbol("s"), "segment", self.nodes, (self.values,))
 
 
-@dataclass(frozen=True)
+@record
 class CuttingLaw(Law):
     """The `force` (N) on a ram while the tool cuts: on the stroke of the ram's `course` that begins at the top.
 
@@ -321,7 +322,7 @@ class CuttingLaw(Law):
         return (self.force,)
 
 
-@dataclass(frozen=True)
+@record
 class ConstantLaw(Law):
     """The same size at every position."""
 
@@ -343,7 +344,7 @@ class ConstantLaw(Law):
         return True
 
 
-@dataclass(frozen=True)
+@record
 class Opposing(Law):
     """−`size`·sgn(rate), the sign of the rate changing at the cycle angles `reversals` of one turn.
 
@@ -367,7 +368,7 @@ class Opposing(Law):
         return (self.size,)
 
 
-@dataclass(frozen=True)
+@record
 class Resistance(Law):
     """−`size`·sgn(rate) over the travel of a sliding driver, which does not return to its start."""
 

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import asdict
 
 import numpy as np
 
 from reportgen.assignment.common import Positions
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import record
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.force_analysis import Load
@@ -117,7 +118,7 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
 # --- forces and torques -----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
+@record
 class Piston(Stroke):
     """A piston and the gas on it; its cycle angle counts from its top at the start of intake.
 
@@ -130,7 +131,7 @@ class Piston(Stroke):
     @classmethod
     def on(cls, course: Stroke, bore: float, indicator: IndicatorTable) -> Piston:
         """Return the piston with a `bore` (m) whose travel is the `course`."""
-        return cls(**vars(course), bore=bore, indicator=indicator)
+        return cls(**asdict(course), bore=bore, indicator=indicator)
 
     @property
     def name(self) -> str:
@@ -157,7 +158,7 @@ def fixed(direction: complex) -> Direction:
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 
-@dataclass(frozen=True)
+@record
 class Applied:
     """A force P e that is neither weight nor inertia: its law P times the unit vector e along it, at `point`."""
 
@@ -173,7 +174,7 @@ class Applied:
         return Load(self.name, self.link, force, motion.points[self.point].p, np.zeros_like(angle))
 
 
-@dataclass(frozen=True)
+@record
 class Torque:
     """A torque on a link other than an inertia couple: its law (N·m), anticlockwise positive."""
 
@@ -192,7 +193,7 @@ def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
     return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LoadsByKind:
     """The loads of a file: forces and torques that act, and the names of those that are zero throughout."""
 

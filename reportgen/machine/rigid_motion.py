@@ -5,11 +5,10 @@ The groups of Assur in `machine.kinematics` and `machine.triads` are computed wi
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import record
 
 SINGULAR = 1e-5
 """Sine of the angle below which two directions count as parallel.
@@ -50,7 +49,7 @@ def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | comp
 # --- motion ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinkMotion:
     """Angle (rad), angular velocity (rad/s) and acceleration (rad/s²) of a link, each [N]."""
 
@@ -59,7 +58,7 @@ class LinkMotion:
     epsilon: Floats
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PointMotion:
     """Position (m), velocity (m/s) and acceleration (m/s²) of a point, complex [N]."""
 
@@ -68,7 +67,7 @@ class PointMotion:
     a: Complexes
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SlideMotion:
     """Relative motion in a prismatic joint: s (m) along the unit vector `direction`, ṡ (m/s) and s̈ (m/s²), each [N]."""
 
@@ -78,7 +77,7 @@ class SlideMotion:
     direction: Complexes
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Rail:
     """A guide as it moves: its point `at`, its unit `direction` [N], and the motion of the link that carries it."""
 

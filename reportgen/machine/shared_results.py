@@ -7,9 +7,9 @@ not know which topic provides it; if no topic does, they get None.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
+from reportgen.base.records import record
 from reportgen.base.topics import HookModule
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Result = TypeVar("Result", covariant=True)
 
 
-@dataclass(frozen=True)
+@record
 class SharedResult(Generic[Result]):
     """A result by its name."""
 
@@ -41,7 +41,7 @@ class SharedResult(Generic[Result]):
         return None
 
 
-@dataclass(frozen=True)
+@record
 class Provision(Generic[Result]):
     """A result that a topic provides, and the function that computes it for a machine."""
 
@@ -49,7 +49,7 @@ class Provision(Generic[Result]):
     compute: Callable[[Machine], Result | None]
 
 
-@dataclass(frozen=True)
+@record
 class PhysicsHooks:
     """The results that a topic provides."""
 

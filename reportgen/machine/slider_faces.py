@@ -10,14 +10,13 @@ opposite sides:
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Faces:
     """The ends x₁ < x₂ (m) of a slider's face from its pin along the guide, and how far (m) it lies below the pin."""
 

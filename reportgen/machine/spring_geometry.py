@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import record
 from reportgen.formula import Ref, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine.kinematics import Motion
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Anchor:
     """An end of a spring: a named point, or a place (m) of the frame that has no name."""
 
@@ -31,7 +30,7 @@ class Anchor:
         return q.find(id) or q.give(id, self.place, id, "length", hidden=True)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Coil:
     """A spring between two ends, by its number.
 

@@ -8,11 +8,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import record
 from reportgen.formula.constructions import Value, circle_circle, cross, dot
 from reportgen.formula.plate_pose import EXACT, SAME, Rows, refined_pose
 from reportgen.machine import Triad
@@ -74,7 +74,7 @@ def _refined(triad: Triad, outer: Sequence[complex], d: complex, turn: complex) 
 # --- all assembly modes ---------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Pose:
     """A pose of the plate: the place `d` (m) of its first inner joint, the direction `turn` = e^{iφ} of its axes."""
 
@@ -137,7 +137,7 @@ Outer = Callable[[Floats], tuple[Complexes, Complexes]]
 """Places (m) and rates (m per unit of the driver's coordinate) of the outer joints, [3, N], at its coordinates [N]."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ModeCourse:
     """An assembly mode over the driver's travel: poses with their rates at rising coordinates `driver` [K].
 
@@ -234,7 +234,7 @@ PoseAnchor = tuple[float, complex, complex, complex, float, float]
 """The driver's coordinate, d, e^{iφ}, their rates and the determinant."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Walk:
     """Follows an assembly mode from anchor to anchor: prediction by the rates, correction by Newton's iteration."""
 
@@ -345,7 +345,7 @@ PAIRS = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
 """Two legs whose lines meet in a special point, and the third leg."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class AssembledTriad:
     """A triad in motion: its inner joints, its links, and the origins of their frames."""
 

@@ -8,9 +8,10 @@ follow after the exchange is undone. Values that are then still wrong are treate
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import combinations
 
+from reportgen.base.records import record
 from reportgen.marking.marking_data import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme
 
@@ -29,7 +30,7 @@ APART = 3.0
 """Number of tolerances by which the key's values must differ for a value to distinguish two positions."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Exchange:
     """Two exchanged positions: the ids of the rows whose values were exchanged, and the distinguishing places.
 

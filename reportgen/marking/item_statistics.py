@@ -8,10 +8,10 @@ Algina, Introduction to Classical and Modern Test Theory, 1986, ch. 14.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
@@ -24,7 +24,7 @@ LEAST = 10
 """Smallest number of students for a correlation: with fewer, 0.6 may be chance (1 in 20)."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Item:
     """Cells of a class under one name, with their statistics.
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Location, Problem
+from reportgen.base.records import record
 from reportgen.case.answer_key import Key
 from reportgen.document import Inlines
 
@@ -14,7 +15,7 @@ Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Answer:
     """A student's value of one cell in the row's printed unit, with its location."""
 
@@ -23,7 +24,7 @@ class Answer:
     location: Location
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ReadOff:
     """The reading of a length or a direction from a drawing that is `times` as large as the report's.
 
@@ -105,7 +106,7 @@ OPEN = frozenset({Verdict.unreadable, Verdict.unread})
 """Verdicts on entries that may be right or wrong, because they could not be read."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SheetValues:
     """The values of one cell in the units of the sheet; lengths are as drawn at the student's own scale."""
 
@@ -119,7 +120,7 @@ class SheetValues:
         return self.given is not None and abs(self.given - value) <= band
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Marked:
     """The verdict on one cell; values are in SI, lengths on paper at the report's scale.
 
@@ -174,7 +175,7 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Notice:
     """A finding for the instructor: a `kind` (a key of `warnings` in words) and the places that show it.
 
@@ -192,7 +193,7 @@ class Notice:
     taken: tuple[Place, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Amendment:
     """An instructor's correction of some cells: their description, their places, and the reason."""
 
@@ -262,7 +263,7 @@ class Marking:
         return tuple(cell for cell in self.cells if cell.first)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Unmarked:
     """A student without marks, with the reasons; these are empty if nothing was submitted.
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import datetime
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import field
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Annotated, Literal
@@ -18,6 +18,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Percent, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
+from reportgen.base.records import record
 from reportgen.base.units import Given, Language
 from reportgen.marking.tolerance_bands import DIGITS, PAPER_ERROR
 from reportgen.marking.toleranced_key import Ask
@@ -28,7 +29,7 @@ FLAGS_ONLY = frozenset({"constant", "classmate", "unseen"})
 """Kinds of flags that are only reported by default."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Scale:
     """The scale of marks: the highest mark, and the step to which marks are rounded."""
 
@@ -41,7 +42,7 @@ class Scale:
         return round(math.floor(share * self.highest / self.step + 0.5 + 1e-9) * self.step, 6)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Lateness:
     """The deduction from a mark for each day begun after the moment `due`, at most `most` in total."""
 
@@ -54,7 +55,7 @@ class Lateness:
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Browser:
     """What students may do in the browser (`serve`): until when, and how often they check and upload.
 
@@ -75,7 +76,7 @@ Twice = Literal["last", "first"]
 """Choice between two sheets of one student."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Policy:
     """The requested cells, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
 

@@ -11,10 +11,10 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.marking_data import Cells, Marked, Place, Verdict
@@ -127,7 +127,7 @@ def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[t
 # explain almost any slip of arithmetic.
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Datum:
     """A given quantity and the value (SI) that the student seems to have used for it."""
 

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.case.answer_key import Role
 from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
 from reportgen.formula.calculation import Family
@@ -42,7 +42,7 @@ TRIGONOMETRIC = {"sin", "cos", "tan"}
 INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Mistake:
     """A mistake that can be made in one quantity.
 

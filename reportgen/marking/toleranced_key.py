@@ -7,7 +7,7 @@ answer sheet requests.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,7 @@ import numpy as np
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
+from reportgen.base.records import record
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
@@ -201,7 +202,7 @@ DEFAULT = (
 EVERYTHING = ("*",)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Ask:
     """A selection of sections and ids by patterns; the last matching pattern decides, and "-" excludes.
 

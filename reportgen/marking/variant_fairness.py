@@ -8,11 +8,12 @@ Source: R. A. Fisher, The Design of Experiments, 1935, § 21.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from statistics import fmean, stdev
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
 from reportgen.base.words import load_words
@@ -36,7 +37,7 @@ With 50 groups, the smallest probability that counts is 1 in 1000, or 20 permuta
 """
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class VariantGroup:
     """Students who share one value: its symbol (None: the variant), the value, their number, mean and spread of marks.
 

@@ -6,15 +6,15 @@ Torques are in N·m, speeds in rad/s, both positive in the sense of the crank's 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Motor:
     """A motor of a list: rated `power` (W) at the rated `speed` (rad/s), starting and breakdown torque (N·m)."""
 
@@ -54,7 +54,7 @@ class Drive(ABC):
         return ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ConstantDrive(Drive):
     """The same torque M = `size` (N·m) at every speed [N]; a brake if it is negative."""
 
@@ -71,7 +71,7 @@ class ConstantDrive(Drive):
         return False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinearDrive(Drive):
     """M = M₀ − k ω (N·m) [N] with M₀ = `start` (N·m) and k = `fall` (N·m·s); with M₀ = 0 a load that grows with the
     speed.
@@ -95,7 +95,7 @@ class LinearDrive(Drive):
         return (self.start / self.fall,) if self.fall else ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class KlossDrive(Drive):
     """An induction motor by Kloss: M = 2 M_k/(s/s_k + s_k/s) (N·m) [N] with the slip s = 1 − ω/ω₀.
 
@@ -120,7 +120,7 @@ class KlossDrive(Drive):
         return tuple(self.synchronous * (1 + sense * self.slip) for sense in (-1, 0, 1))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TableDrive(Drive):
     """Torques (N·m) [N] at speeds (rad/s) that rise from 0, linear between them; extrapolated beyond the last one."""
 
@@ -149,7 +149,7 @@ class TableDrive(Drive):
         return self.speeds
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Geared(Drive):
     """A drive behind a gear: the crank turns `ratio` times as fast, M = M_motor/i (N·m) [N] at ω_motor = ω/i."""
 
@@ -171,7 +171,7 @@ class Geared(Drive):
         return tuple(corner * self.ratio for corner in self.motor.corners)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MotionAsked:
     """Request for the true motion of a machine.
 

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.motion.drives import Motor
 from reportgen.motion.steady_running import SteadyMotion
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class DriveDemand:
     """Requirements of a steady motion for its drive, at the crank (N·m).
 
@@ -37,7 +37,7 @@ class DriveDemand:
         )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MotorChecks:
     """A motor with the checks that it passes, its torques reduced to the crank (N·m)."""
 

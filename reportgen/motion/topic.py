@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -25,6 +25,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding
+from reportgen.base.records import record
 from reportgen.base.units import Given
 from reportgen.catalogue.topic_sections import (
     Opening,
@@ -62,7 +63,7 @@ GearRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1e4))]
 START = Given(0.0, 0.0, "deg", "0 deg")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FoundTorque(Reader):
     """A torque, or `find`."""
 
@@ -75,7 +76,7 @@ class FoundTorque(Reader):
         return {"anyOf": [{"const": FIND}, self.of.schema()]}
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Always(Reader):
     """`true`: a value that is always present and may be written."""
 

@@ -9,13 +9,14 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from reportgen.base.languages import decimal_mark
+from reportgen.base.records import record
 from reportgen.base.stable_digits import ALIKE, settled, significant
 from reportgen.base.units import Language, rounded, write
 from reportgen.document.alt_text import sentences, within
@@ -116,7 +117,7 @@ class Tracks:
         return base64.b64encode(b"".join(self._values)).decode()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Drawn:
     """A pane as the template prints it; lengths are mm, texts are escaped for attributes."""
 
@@ -132,7 +133,7 @@ class _Drawn:
     reach: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Charted:
     """A chart as the template prints it."""
 

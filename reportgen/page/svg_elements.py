@@ -7,10 +7,11 @@ reader's fonts, at the places that the report's fonts would take.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from html import escape as escaped
 from itertools import groupby
 
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.document.layout import fits
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
@@ -56,7 +57,7 @@ OVER, STROKE, BARB = 0.2, 0.065, (0.3, 0.12)
 """Distance of an arrow or a bar above a letter, its width, length and half the width of its head, in font sizes."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Run:
     """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes.
 

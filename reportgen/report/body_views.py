@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Side
 from reportgen.document.template_rendering import NamedPoint
@@ -16,7 +16,7 @@ from reportgen.report.triad_views import TriadView
 
 
 @view("force", "couple")
-@dataclass(frozen=True, slots=True)
+@record
 class BodyView:
     """A link with an inertia couple: its number, mass centre, the pin from which it is measured, the ids to show."""
 

@@ -5,10 +5,9 @@ Names of points are `NamedPoint`s, which templates print as symbols.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Side, image
 from reportgen.derivation.load_entries import Polygon
@@ -32,7 +31,7 @@ template_members("carried")(Polygon)
 
 
 @template_members("__str__", "name", "link")
-@dataclass(frozen=True, slots=True)
+@record
 class PointView:
     """A named point on a link, such as a mass centre."""
 

@@ -6,11 +6,12 @@ The force plans are in `plan_figures`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.units import MM
 from reportgen.derivation.load_entries import Polygon
 from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
@@ -34,7 +35,7 @@ from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 from reportgen.report.triad_views import LegView, TriadView
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Bodies:
     """Links of a machine at a position, drawn to a `share` of μ_l, with the forces on them."""
 

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
@@ -11,7 +10,7 @@ from reportgen.report.context import ReportContext
 
 
 @template_members("id", "stroke", "line", "ways")
-@dataclass(frozen=True, slots=True)
+@record
 class ReadLoad:
     """A load at a position: its id, the id of the stroke whose fractions its table uses ("" without one), and `line`.
 

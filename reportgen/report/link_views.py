@@ -6,8 +6,8 @@ Names of points are `NamedPoint`s, which templates print as symbols.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
 
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Scheme, Side, image, sides
 from reportgen.derivation.load_entries import Polygon
@@ -21,7 +21,7 @@ from reportgen.report.driver_view import DriverView, points_on
 
 
 @view("base", "omega", "epsilon")
-@dataclass(frozen=True, slots=True)
+@record
 class CarriedPoint:
     """A point of a link that turns about `origin`, without a separate segment on the plan.
 
@@ -50,7 +50,7 @@ class CarriedPoint:
 
 
 @view("reaction", "lines")
-@dataclass(frozen=True, slots=True)
+@record
 class Contact:
     """The reaction `digits` of a slide on `link`.
 

@@ -6,11 +6,11 @@ The construction depends on the position: Q needs two lines that meet on the she
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.drawing import Circle, Item, Line
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.force_drawings import LEAST_ARM, TOGETHER
@@ -25,7 +25,7 @@ from reportgen.report.context import ReportContext
 PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Percussion:
     """Construction of the line of a link's single inertia force at a position; points in m (x + iy).
 

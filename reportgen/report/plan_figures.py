@@ -7,10 +7,11 @@ The ledger's plans are in metres on paper (x + iy); `reportgen/drawing/vector_pl
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.stable_digits import settled, significant
 from reportgen.base.units import MM, nice_up
 from reportgen.derivation.equation_sides import Side, image
@@ -73,7 +74,7 @@ POLE = "pole"
 # --- velocity and acceleration
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class MotionFigures:
     """Figures of the plan of velocities ("v") or accelerations ("a"): the plan, its stages, the plates of one turn."""
 
@@ -204,7 +205,7 @@ def _stages(
     return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlanSeries:
     """Plans of several positions at one `scale`, in rows; without the mechanism beside them."""
 
@@ -405,7 +406,7 @@ def force_plates(report: ReportContext, group: AssurView) -> FigureScenes:
     return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ForcePlans:
     """Force plans of all positions, each at a separate round scale, which is printed below it.
 

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document import (
     FIRST_COLUMN,
@@ -241,7 +242,7 @@ def lengths(report: ReportContext, key: str, caption: str, head: Sequence[str]) 
 # --- tables by the functions that give their contents
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class QuantityTable:
     """A table of the quantities whose ids a function returns, `at` the positions of that name in the report.
 
@@ -263,7 +264,7 @@ class QuantityTable:
         return tables(report, key, "".join((caption, *further)), quantities, positions)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class RowTable:
     """A table of the rows that a function returns, in columns of these widths (mm)."""
 

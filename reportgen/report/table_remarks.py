@@ -6,10 +6,11 @@ Everything is read from the printed numbers, so that a sentence and its table ca
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
@@ -25,7 +26,7 @@ AT_REST = 1e-9
 
 
 @view("place")
-@dataclass(frozen=True, slots=True)
+@record
 class Peak:
     """Quantities with equal values over positions: their greatest size, its positions, and the positions of zeros.
 
@@ -150,7 +151,7 @@ def _joined(report: ReportContext, alike: Sequence[Peak]) -> Peak:
 # --- motion
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GuidedLink:
     """A link that slides along a fixed guide, and the pin that moves with it."""
 
@@ -247,7 +248,7 @@ def chief_load(report: ReportContext, at: Peak) -> Peak | None:
     return max((one for one in forces_there if one is not None), key=lambda one: one.value.number.value, default=None)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TorqueSigns:
     """Numbers of the positions at which the balancing torque acts `along` the motion, `against` it, or is zero
     (`none`).
@@ -303,7 +304,7 @@ def balance_mean(report: ReportContext) -> Inlines:
 
 
 @view()
-@dataclass(frozen=True, slots=True)
+@record
 class Remark:
     """A sentence about one quantity or several equal ones: symbols, course, and reason."""
 
@@ -312,7 +313,7 @@ class Remark:
     why: Inlines
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Subject:
     """Subject of remarks, one of `SUBJECTS`: ids, over one turn or the whole cycle, with or without a remark on zeros.
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.base.topics import HookModule
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.report.context import ReportContext
@@ -27,7 +28,7 @@ def _no_residuals(report: ReportContext) -> Mapping[str, float]:
     return {}
 
 
-@dataclass(frozen=True)
+@record
 class ViewHooks:
     """Names that a topic adds to the templates of a machine's report, by kind of name."""
 

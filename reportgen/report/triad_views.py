@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_access import template_members, view
 from reportgen.catalogue import ternary_ids
 from reportgen.derivation.equation_sides import Scheme, Side
@@ -24,7 +24,7 @@ WHOLE = 1e-6
 
 
 @view("P", "Q", "rod")
-@dataclass(frozen=True, slots=True)
+@record
 class LegView:
     """A leg of a triad: its `link` from the outer joint P to the joint Q on the plate.
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -19,6 +18,7 @@ from typing import Any
 from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Location, ReportgenError
 from reportgen.base.files import contents, leads_out, put_file, put_files, put_set, reported, version
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, language_of
 from reportgen.base.yaml_source import read_source
@@ -32,7 +32,7 @@ LONGEST_NAME = 80
 """Characters kept of the name of an uploaded file."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class ClassFolder:
     """The paths of a class."""
 

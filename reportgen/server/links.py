@@ -12,7 +12,6 @@ import hashlib
 import hmac
 import os
 import secrets
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
 
@@ -20,6 +19,7 @@ from itsdangerous import BadSignature, Signer
 from sqlalchemy import Row, delete, select, update
 from sqlalchemy.dialects.sqlite import insert
 
+from reportgen.base.records import record
 from reportgen.classes.roster import comparable
 from reportgen.server.database import Database
 from reportgen.server.tables import people, sessions
@@ -35,7 +35,7 @@ CODE = 10
 ALPHABET = str.maketrans("ABCDEFGHIJKLMNOPQRSTUVWXYZ234567", "abcdefghjkmnpqrstuvwxyz023456789")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Person:
     """Somebody who has signed in; `csrf` is the token of the session's forms."""
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import datetime
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from sqlalchemy import Row, Table, func, select, update
 from sqlalchemy.dialects.sqlite import insert
 
+from reportgen.base.records import record
 from reportgen.server.database import Database, Writing
 from reportgen.server.tables import cells, checks, handins, log, marks, people, saves, settings, uploads
 
@@ -23,7 +23,7 @@ class UsedUpError(Exception):
     """The policy allows no more uploads or checks."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class TypedCell:
     """A cell as the browser sends it."""
 
@@ -33,7 +33,7 @@ class TypedCell:
     text: str
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Saved:
     """A stored cell."""
 
@@ -42,7 +42,7 @@ class Saved:
     revision: int
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Window:
     """Until when a student may work; None for no end."""
 

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.records import record
 
-@dataclass(frozen=True, slots=True)
+
+@record
 class WorkCall:
     """A function of `work`, found in the process that runs it."""
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.records import record
 from reportgen.case import MachineAnalysis
 from reportgen.document import Text, plain
 from reportgen.document.cjk_punctuation import set_out
@@ -56,7 +57,7 @@ class Sources:
         return plain(set_out((line,), language), language)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Drawn:
     """The scenes of a plate, drawn small; `name` is its key among the words, the others are as in `DrawingPlate`."""
 

@@ -12,6 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.catalogue.linkage_file import place
 from reportgen.drawing.geometry import polar
 from reportgen.structure.splitting import FRAME, ChainJoint
@@ -27,7 +28,7 @@ SAME_PLACE = 1e-9
 """Points within this distance (m) are one place."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Profile:
     """The profile of a link in a higher pair at the contact.
 
@@ -39,7 +40,7 @@ class Profile:
     axis: complex | None
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlacedJoint:
     """A joint with its letter and place.
 

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from reportgen.base.records import record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.case.design_case import DesignPage
@@ -29,7 +30,7 @@ NARROW, WIDE = 22.0, 26.0
 
 
 @view()
-@dataclass(frozen=True, slots=True)
+@record
 class SolutionView:
     """A solution for the templates: the ids of its worked lines, β, and what its words depend on."""
 

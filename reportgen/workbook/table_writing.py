@@ -13,9 +13,9 @@ import re
 import unicodedata
 import zipfile
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from reportgen.base.records import record
 from reportgen.workbook.zip_package import LONGEST_CELL, guarded, number_text
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 _NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Entry:
     """A cell to be written: its value, how it looks, a comment, a number format such as "0.00".
 
@@ -65,7 +65,7 @@ NOTHING = Entry()
 """A cell that is left as it is."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class WorksheetData:
     """A page of a workbook: rows of entries or of bare values.
 
@@ -83,7 +83,7 @@ class WorksheetData:
     breaks: Sequence[int] = ()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Book:
     """A workbook of one or more sheets; their names are made valid and distinct."""
 

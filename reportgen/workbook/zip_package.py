@@ -13,11 +13,11 @@ import zipfile
 import zlib
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Any, Literal
 from xml.parsers import expat
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import record
 
 MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
@@ -51,7 +51,7 @@ _FORBIDDEN_TYPES = re.compile(r"macroenabled|vbaproject|intlmacrosheet", re.IGNO
 _TRAITS = re.compile(r"\.(xml|rels|vml)$", re.IGNORECASE)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Bounds:
     """Limits of a package: bytes of all its parts together, and the kinds of relations that may lead outside."""
 
@@ -63,7 +63,7 @@ Attributes = dict[str, str]
 Start = Callable[[str, Attributes], None]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Relation:
     """Relation of a part to another: the last word of its type, its target, and whether that is outside the package."""
 
@@ -326,7 +326,7 @@ _INSIDE = re.compile(r"""(?<![,;|'"\s])[,;|'"\s]++(?=[=+\-@＝＋－＠])""")
 _NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SheetCell:
     """A cell as displayed: `value` is a number of kind "number", None of kind "empty", else text.
 
@@ -358,7 +358,7 @@ class SheetCell:
         return self.kind == "empty"
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Page:
     """A sheet, or a whole CSV file: its rows in order, each up to its last cell with content."""
 

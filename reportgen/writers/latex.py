@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import islice, pairwise
 from typing import TYPE_CHECKING
 
 from reportgen import document as tree
 from reportgen.base.languages import setting_of
+from reportgen.base.records import record
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.document import layout
@@ -451,7 +451,7 @@ def _rules_below(row: Sequence[tree.Cell]) -> str:
 # --- contents and outline -------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Entry:
     """A heading of the contents and the outline; `below` counts the headings directly under it."""
 

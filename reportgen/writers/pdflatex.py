@@ -16,13 +16,13 @@ import subprocess
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
 from typing import Self
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.files import keep, kept
+from reportgen.base.records import record
 
 INSTALL = (
     "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
@@ -65,7 +65,7 @@ _ENTRY = re.compile(r"^\\contentsentry\{.*$", re.MULTILINE)
 _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Compiled:
     """A finished PDF with its source, its number of passes, and the log's lines about boxes over 1 pt too large."""
 

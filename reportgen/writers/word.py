@@ -7,11 +7,11 @@ and equations are fields, and references lead to bookmarks around them, so that 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
 from itertools import groupby, pairwise
 
 from reportgen import document as tree
 from reportgen.base.languages import setting_of
+from reportgen.base.records import record
 from reportgen.document import layout
 from reportgen.document.alt_text import figure_text
 from reportgen.drawing import Scene
@@ -108,7 +108,7 @@ AFTER = paragraph("Gap", "", spaced(0, 10))
 NEXT_PAGE = paragraph("Gap", '<w:r><w:br w:type="page"/></w:r>')
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class _Setting:
     """Context of a block: the level of its list, 0 outside, and True if it stays with the next block."""
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 from html import escape as escaped
 from typing import Any
 
 from reportgen.base.languages import PageMargins
+from reportgen.base.records import record
 
 NAMESPACES = {
     "w": "http://schemas.openxmlformats.org/wordprocessingml/2006/main",
@@ -90,7 +91,7 @@ def drawing(number: int, width: float, height: float, description: str) -> str:
     )
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PageSetup:
     """Paper and margins of a section (mm); `above` and `below` are the distances of header and footer from the edge."""
 
@@ -115,7 +116,7 @@ class PageSetup:
 A4 = PageSetup()
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Own:
     """A school's own parts: XML, "" for the default; margins by the names that pages use for them (mm)."""
 

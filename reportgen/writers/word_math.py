@@ -7,10 +7,11 @@ keywords in it, so each letter of a name is a separate run.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from typing import ClassVar
 
+from reportgen.base.records import record
 from reportgen.base.units import Language
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import ABREAST, fits, in_groups
@@ -142,7 +143,7 @@ HANGING, WITHIN = 2.0, 1.6
 """Indentations (em) of a continuation line in a flow, and within a side of a row."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class FormulaLine:
     """A line of a displayed equation: the part left of the "=" that lines are aligned at, and the rest."""
 
@@ -273,7 +274,7 @@ SLIVER = 1.0
 NO_COLUMNS = range(0)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class GridEntry:
     """The content of a grid cell, its alignment, and its indentation (mm)."""
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 from reportgen import document as tree
+from reportgen.base.records import record
 from reportgen.writers.word_elements import PageSetup
 
 COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
@@ -14,7 +14,7 @@ CONTENTS_LEVEL = 3
 """Deepest level of heading in the contents."""
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Bookmark:
     """The target of a reference: a bookmark, and the switch that shows something other than the marked text."""
 
