@@ -45,7 +45,9 @@ Extent = Literal["full", "short"]
 class Part(BaseModel):
     """A section of the file: frozen, its keys known."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, populate_by_name=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(
+        extra="forbid", frozen=True, defer_build=True, populate_by_name=True, arbitrary_types_allowed=True
+    )
 
     @model_validator(mode="before")
     @classmethod
