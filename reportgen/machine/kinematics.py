@@ -31,7 +31,7 @@ from reportgen.machine import (
     SlidingDriver,
     Triad,
 )
-from reportgen.machine.rigid_motion import LinkMotion, PointMotion, Rail, SlideMotion, carried, solve2, unit
+from reportgen.machine.rigid_motion import LinkMotion, PointMotion, Rail, SlideMotion, at_rest, carried, solve2, unit
 from reportgen.machine.triads import ModeCourse, followed, moving, poses_on
 
 TOUCHING = 1e-13
@@ -207,7 +207,7 @@ class Motion:
         """Return the material point of `link` that lies at `at` (m) [N] now: v = v_O + iω r, a = a_O + (iε − ω²) r."""
         p = np.broadcast_to(np.asarray(at, dtype=np.complex128), self.driver.shape)
         if link == GROUND:
-            return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
+            return at_rest(p)
         return carried(self.origins[link], self.links[link], p)
 
     def velocity(self, link: int, at: Complexes | complex) -> Complexes:
@@ -354,7 +354,8 @@ class _State:
             return self.points[end]
         carrier, origin = self.links[end.link], self.origins[end.link]
         turned = self._axis(end.link)
-        at = carried(origin, carrier, origin.p + end.at * turned)
+        p = origin.p + end.at * turned
+        at = at_rest(p) if end.link == GROUND else carried(origin, carrier, p)
         return Rail(end.link, at, turned * unit(end.angle), carrier)
 
     def add(self, group: Group) -> None:

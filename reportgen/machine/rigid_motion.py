@@ -9,6 +9,7 @@ import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
 from reportgen.base.records import record
+from reportgen.machine import GROUND
 
 SINGULAR = 1e-5
 """Sine of the angle below which two directions count as parallel.
@@ -88,6 +89,8 @@ class Rail:
 
     def carried(self, p: Complexes) -> PointMotion:
         """Return the point of the guide's own link that lies at `p` (m) [N]: v = v_G + iω r, a = a_G + (iε − ω²) r."""
+        if self.link == GROUND:
+            return at_rest(p)
         return carried(self.at, self.carrier, p)
 
 
@@ -95,3 +98,8 @@ def carried(base: PointMotion, link: LinkMotion, p: Complexes) -> PointMotion:
     """Return the point at `p` (m) [N] of a rigid link that moves with `base`: v = v_O + iω r, a = a_O + (iε − ω²) r."""
     r = p - base.p
     return PointMotion(p, base.v + 1j * link.omega * r, base.a + (1j * link.epsilon - link.omega**2) * r)
+
+
+def at_rest(p: Complexes) -> PointMotion:
+    """Return the point of the ground that lies at `p` (m) [N]."""
+    return PointMotion(p, np.zeros_like(p), np.zeros_like(p))
