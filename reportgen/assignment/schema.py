@@ -58,6 +58,12 @@ def file_schema(kind: Kind) -> Schema:
     return schema
 
 
+@cache
+def parameters_schema(kind: Kind) -> Schema:
+    """Return the JSON Schema of the section `parameters` of a kind, without its checks; of draft 2020-12."""
+    return kind.parameters.model_json_schema(by_alias=True, schema_generator=_Generator)
+
+
 def schema_of(kinds: Iterable[Kind], words: Callable[[str], Mapping[str, FieldWords]]) -> Schema:
     """Return the JSON Schema (draft-07, which every editor supports) of files of any of the kinds, with their
     labels.

@@ -22,7 +22,7 @@ from reportgen.assignment.common import Check, Draft, Drawing, Kind, Part, Posit
 from reportgen.assignment.fields import UNIT_KEY, Interval, OneLine, Quantity, Ratio, Reader, fault
 from reportgen.assignment.parameter_formulas import FUNCTIONS, PLAIN, UNITS, Amount, Formula, FormulaError, formula
 from reportgen.assignment.reading import model_of, placed, read_section
-from reportgen.assignment.schema import Schema, file_schema, places
+from reportgen.assignment.schema import Schema, parameters_schema, places
 from reportgen.base.atlas_words import LONGEST_WORDS
 from reportgen.base.errors import Fault, Finding, Where
 from reportgen.base.records import record
@@ -338,8 +338,8 @@ def _asked_for(base: Kind, linkage: Mapping[str, Any], where: Where) -> tuple[st
 
 @cache
 def _schemas(base: Kind, where: Where) -> list[Schema]:
-    schema = file_schema(base)
-    return places(schema, schema, ("parameters", *where))
+    schema = parameters_schema(base)
+    return places(schema, schema, where)
 
 
 def _is_literal(text: str, unit: str, is_number: bool, known: frozenset[str]) -> bool:
