@@ -411,6 +411,8 @@ def sample(name: str, language: Language) -> str:
 
 def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> str:
     """Return text that a remark adds to the words of a key: its choices, and other keys with the same meaning."""
+    # Only a topic in which the key lies is loaded.
+    known = known.asking(path)
     schema, words = file_schema(known), choice_words(language)
     choices = list(dict.fromkeys(choice for one in places(schema, schema, tuple(path)) for choice in choices_of(one)))
     said = [f"{choice} ({words[choice]})" if words.get(choice, choice) != choice else choice for choice in choices]
