@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import signal
 import subprocess
 import sys
 import tempfile
@@ -206,7 +205,7 @@ def form() -> None:
                 time.sleep(SETTLED)
                 frames.append(frame(driver.get_screenshot_as_png()))
         finally:
-            served.send_signal(signal.SIGINT)
+            served.terminate()
             served.wait()
         save_moving(frames, "edit.gif", FORM_MS)
 

@@ -7,7 +7,6 @@ screen does not show what the tutorial promises.
 from __future__ import annotations
 
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -82,7 +81,7 @@ def served(folder: Path, language: str) -> Iterator[str]:
     try:
         yield server.stdout.readline().strip()
     finally:
-        server.send_signal(signal.SIGINT)
+        server.terminate()
         server.communicate()
 
 
