@@ -354,10 +354,10 @@ EVERY = 5
 def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Extent]]:
     """Yield subject, command, language, engine, extent: first briefly in the file's language, then by the languages.
 
-    Each subject and command has the default language and a second one, which is the next one with the next command and
-    the next subject, so that each subject and each command has all languages; reports are made in every language that
-    is no draft. A language that no native speaker has read has the usual engine and extent only. All cases of a
-    language follow each other, because few calculations are cached.
+    Each subject runs each command in the default language and in one more. The second language changes from command to
+    command and from subject to subject, so that every subject and every command has all of them; reports are also made
+    in every language that is no draft. Drafts have typst and the short extent only. All cases of a language follow each
+    other, because few calculations are cached.
     """
     for subject in subjects():
         for command in COMMANDS:

@@ -34,7 +34,7 @@ def _classes(decorated: Callable[[type], type]) -> tuple[Any, Any, Any, Any]:
 
     @decorated
     class Named(Base):
-        """A text of its own."""
+        """A class that defines its own text."""
 
         def __repr__(self) -> str:
             return f"<{self.name}>"

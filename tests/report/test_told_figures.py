@@ -56,7 +56,7 @@ CASES = [
     for turn, language in enumerate(LANGUAGES)
     if ROOT / name in built.OF_EACH_KIND or turn == number % 2 or (name, language) in TELLING
 ]
-"""The first file of each kind in every language, the others in one that is no draft, by turns."""
+"""The first file of each kind in every language, all others alternately in Vietnamese and English."""
 TWIN = "engine-twin-05.yaml"
 GREY = 0.3
 """Strokes whose greys differ by more, of 0 to 1, are told apart in print."""
