@@ -323,32 +323,40 @@ class _Blocks:
                 laid_out = [displayed(row, self.language, layout.fits) for row in group]
                 heard = self.speech.equation(map(self.speech.row, laid_out), number)
                 rows = ",".join(_array(self.row(sides)) for sides in laid_out)
-                arguments = f"{literal(heard)},{literal(number)},{layout.ABREAST:g}"
-                lines.append(f"#{self.setter(group, laid_out, number)}{arguments},{rows})")
+                name, *further = self.setter(group, laid_out, number)
+                lines.append(f"#{name}({','.join((literal(heard), literal(number), *further, rows))})")
         return "\n".join(lines) + _label(equation.key)
 
-    def setter(self, rows: Sequence[Expression], laid_out: Sequence[Sequence[object]], number: str) -> str:
-        """Return the frame's function that aligns rows: `F` below each other, `A` in two columns, `E` by measuring.
+    def setter(self, rows: Sequence[Expression], laid_out: Sequence[Sequence[object]], number: str) -> list[str]:
+        """Return the function of the frame that aligns rows, with further arguments; it measures what is in doubt.
 
+        `F` sets rows below each other, `A` in two columns, `J` in the way for which there is room; `E` may break them.
         Rows without a number are set in two columns if they fit.
         """
         own = [box(row, self.size, displayed=True).width for row in rows]
         heads = [self.head(row, len(parts)) for row, parts in zip(rows, laid_out, strict=True)]
 
-        def aligned(start: int, step: int) -> float:
-            """Return the width (mm) of rows whose relations are aligned below each other."""
+        def widths(start: int, step: int) -> list[float]:
+            """Return the width (mm) to which each row brings those whose relations are aligned below each other."""
             left = heads[start::step]
-            return max(left) + max(row - head for row, head in zip(own[start::step], left, strict=True))
+            return [max(left) + row - head for row, head in zip(own[start::step], left, strict=True)]
 
-        below, two = aligned(0, 1), math.inf
+        below, two = widths(0, 1), math.inf
         if len(rows) > 1 and not number:
-            two = aligned(0, 2) + layout.ABREAST + aligned(1, 2)
-        room = self.room - (NUMBER_ROOM if number else 0.0)
+            two = max(widths(0, 2)) + layout.ABREAST + max(widths(1, 2))
+        room, gap = self.room - (NUMBER_ROOM if number else 0.0), f"{layout.ABREAST:g}"
         if two + _doubt(two) <= room:
-            return "A("
+            return ["A", gap]
         # Rows with a long left side are not aligned.
-        short = len(rows) == 1 or max(heads) + _doubt(max(heads)) <= LONG_HEAD * room
-        return "F(" if short and two - _doubt(two) > room >= below + _doubt(below) else f"E({self.room:g},"
+        short = max(heads) + _doubt(max(heads)) <= LONG_HEAD * room
+        sure = [width + _doubt(width) <= room for width in below]
+        may_be_two = two - _doubt(two) <= room
+        if all(sure) and not may_be_two and (short or len(rows) == 1):
+            return ["F"]
+        if all(sure) and short:
+            return ["J", gap, f"{self.room:g}"]
+        known = _array(str(int(short and one)) for one in sure)
+        return ["E", gap if may_be_two else "none", f"{self.room:g}", known]
 
     def head(self, row: Expression, parts: int) -> float:
         """Return the width before the first relation of a row displayed in `parts` parts (mm)."""
