@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextvars import ContextVar
 from typing import TYPE_CHECKING
 
 from reportgen.api.report_fonts import Engine
@@ -23,6 +24,20 @@ if TYPE_CHECKING:
 OF_SYSTEM = "// with fonts of the system\n"
 """First line of a source that was left for a preview and may use fonts of the system."""
 SUFFIX: Mapping[Engine, str] = {"typst": ".typ", "latex": ".tex"}
+_sources_alone: ContextVar[bool] = ContextVar("sources_alone", default=False)
+
+
+@contextmanager
+def sources_alone() -> Iterator[None]:
+    """Write sources without typesetting them inside this context: their PDF is empty.
+
+    A process that others are forked from runs no typesetter, whose threads a fork does not copy.
+    """
+    token = _sources_alone.set(True)
+    try:
+        yield
+    finally:
+        _sources_alone.reset(token)
 
 
 def reading_ahead(
@@ -62,11 +77,16 @@ def typeset(
 
         if not setting_of(tree.language).latex:
             raise TypesetterError(word("typst_alone", tree.language, language=tree.language))
-        compiled = pdflatex.compile(latex.pieces(tree, letter), ahead=ahead)
+        pieces = latex.pieces(tree, letter)
+        if _sources_alone.get():
+            return "".join(pieces), b""
+        compiled = pdflatex.compile(pieces, ahead=ahead)
         return compiled.source, compiled.pdf
     from reportgen.writers import typst, typst_compiler
 
     source = typst.write(tree, letter)
+    if _sources_alone.get():
+        return source, b""
     pdf = typst_compiler.compile(source, bool(letter.font), standards)
     leave_source(f"{OF_SYSTEM}{source}" if letter.font else source)
     return source, pdf
@@ -101,4 +121,4 @@ def typeset_sheet(
     source = typst.write_sheet(
         sheet, title, assignment.language, phrases, author=said.student.name or "", date=said.date
     )
-    return typst_compiler.compile(source, standards=standards)
+    return b"" if _sources_alone.get() else typst_compiler.compile(source, standards=standards)

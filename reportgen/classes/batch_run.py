@@ -319,7 +319,8 @@ def _pool(order: Order, students: int) -> Pool:
     # Default: as many as the cores that this process may use.
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     given = (order.assignments or order.spec) if students >= preload.FEW else None
-    return local(order.jobs or cores, preload.kinds(given, order.language) if given else (), order.out)
+    samples = preload.samples(given, order.language, order.engine, order.products) if given else ()
+    return local(order.jobs or cores, samples, order.out)
 
 
 # --- files ------------------------------------------------------------------------------------------

@@ -17,7 +17,7 @@ import threading
 import time
 import warnings
 from collections import deque
-from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import field
@@ -161,15 +161,16 @@ NAME = "reportgen-job"
 """Name of the job processes, which distinguishes them from others."""
 
 
-def local(workers: int, kinds: Iterable[str] = (), out: Path | None = None) -> Pool:
+def local(workers: int, samples: Collection[str] = (), out: Path | None = None) -> Pool:
     """Return a pool of at most `workers` processes; the server that starts them begins to load immediately.
 
-    It preloads `kinds`, each as `kind:language`, for all of them, and cleans up in `out` if this process is killed.
+    It prepares `samples`, each as `kind:language:engine:product`, for all of them, and cleans up in `out` if this
+    process is killed.
     """
     # It accepts `context` but is annotated with another name.
     process: Any = concurrent.process
     start: Callable[[Job], Future[Outcome]] = process(
-        name=NAME, timeout=LIMIT, context=_context((*LOADED, READY), kinds, out)
+        name=NAME, timeout=LIMIT, context=_context((READY,) if samples else (*LOADED, READY), samples, out)
     )(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
@@ -222,24 +223,20 @@ LOADED = (
     "reportgen.derivation",
     "reportgen.report.composing",
     "reportgen.drawing.charts",
-    "reportgen.writers.latex",
-    "reportgen.writers.pdflatex",
     "reportgen.writers.typst",
     "jinja2",
     "markdown_it",
     "numpy.polynomial",
-    "pint",
-    "pylatex",
     "typst",
 )
-"""Modules that the fork server imports, so that each worker starts with them loaded."""
+"""Modules that the fork server imports for a few jobs, so that each worker starts with them loaded."""
 READY = "reportgen.classes.preload"
-"""Imported last there; it prepares the kinds that `KINDS` names in the environment."""
-KINDS = "REPORTGEN_KINDS"
+"""Imported last there; it prepares the products that `SAMPLES` names in the environment, with all that they need."""
+SAMPLES = "REPORTGEN_SAMPLES"
 
 
 def _context(
-    loaded: Sequence[str] = LOADED, kinds: Iterable[str] = (), out: Path | None = None
+    loaded: Sequence[str] = LOADED, samples: Iterable[str] = (), out: Path | None = None
 ) -> ForkServerContext | SpawnContext:
     """Return a context in which new processes come from a preloaded server, if the system allows it."""
     folder = cleanup.sockets() if "forkserver" in multiprocessing.get_all_start_methods() else None
@@ -251,7 +248,7 @@ def _context(
     context.set_forkserver_preload([cleanup.__name__, *loaded])
     # Once started, it restores Ctrl-C; the server would otherwise start it first.
     resource_tracker.ensure_running()
-    surroundings = {**ONE_THREAD, KINDS: " ".join(kinds), **cleanup.environment(folder, out)}
+    surroundings = {**ONE_THREAD, SAMPLES: " ".join(sorted(samples)), **cleanup.environment(folder, out)}
     before = {name: os.environ.get(name) for name in surroundings}
     os.environ |= surroundings
     try:
