@@ -313,7 +313,7 @@ def _read(file: Path | Problem, language: Language | None) -> tuple[str, bytes, 
 
 def _pool(order: Order, students: int) -> Pool:
     if order.cluster is not None:
-        from reportgen.classes.worker_pool import cluster
+        from reportgen.classes.dask_cluster import cluster
 
         return cluster(order.cluster, order.language)
     # Default: as many as the cores that this process may use.

@@ -1,9 +1,10 @@
-"""Jobs and the local processes that run them; a process that dies harms no job but its own.
+"""Jobs and the local processes that run them; a process that dies harms no job but the one that killed it.
 
 A job is one product of one student. It has everything that determines its result, including the bytes of the assignment
-file. So it can run in this process, in another, or on another machine, and its result need not be made twice. Each job
-has its own process, started by pebble: its outcome arrives on its own pipe, and all its memory is freed at its end.
-Submitted files are also read in processes, each call within limits of time and memory.
+file. So it can run in this process, in another, or on another machine, and its result need not be made twice. Each
+process is started by pebble and runs a few jobs: their outcomes arrive on its own pipe, and all its memory is freed at
+its end. If it dies, each of its jobs gets a process of its own. Submitted files are also read in processes, each call
+within limits of time and memory.
 """
 
 from __future__ import annotations
@@ -13,15 +14,12 @@ import os
 import signal
 import sys
 import tempfile
-import threading
-import time
 import warnings
 from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
 from dataclasses import field
-from itertools import islice
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -152,9 +150,11 @@ Pool = Callable[[Iterable[Job], Retried], Results]
 """Yields jobs with their outcomes as they end; calls the function for each job that has to start again."""
 
 TRIES = 2
-"""Number of attempts: a job whose process died is tried again once, then it has failed."""
+"""Number of attempts: a job that died alone in its process is tried again once, then it has failed."""
+TOGETHER = 3
+"""Largest number of jobs of a process: starting one takes a tenth of a report, and the typesetter frees no memory."""
 LIMIT = 900.0
-"""Seconds after which a job counts as hung and its process is killed."""
+"""Seconds after which a process counts as hung and is killed."""
 PATIENCE = 10.0
 """Seconds that a terminated process has to clean up."""
 NAME = "reportgen-job"
@@ -169,33 +169,48 @@ def local(workers: int, samples: Collection[str] = (), out: Path | None = None) 
     """
     # It accepts `context` but is annotated with another name.
     process: Any = concurrent.process
-    start: Callable[[Job], Future[Outcome]] = process(
+    start: Callable[[Sequence[Job]], Future[list[Outcome]]] = process(
         name=NAME, timeout=LIMIT, context=_context((READY,) if samples else (*LOADED, READY), samples, out)
     )(_work)
 
     def pool(jobs: Iterable[Job], retried: Retried) -> Results:
-        waiting = deque((job, 1) for job in jobs)
-        running: dict[Future[Outcome], tuple[Job, int]] = {}
+        waiting = deque(jobs)
+        alone: deque[tuple[Job, int]] = deque()
+        running: dict[Future[list[Outcome]], tuple[Sequence[Job], int]] = {}
+
+        def following() -> tuple[Sequence[Job], int]:
+            """Return the next jobs of a process, fewer towards the end, so that no worker is idle for long; and the
+            number of attempts.
+            """
+            if alone:
+                job, tries = alone.popleft()
+                return (job,), tries
+            few = max(1, min(TOGETHER, len(waiting) // (2 * workers)))
+            return [waiting.popleft() for _ in range(few)], 1
 
         def fill() -> None:
-            while waiting and len(running) < workers:
-                job, tries = waiting.popleft()
+            while (alone or waiting) and len(running) < workers:
+                together, tries = following()
                 with _uninterrupted():
-                    running[start(job)] = job, tries
+                    running[start(together)] = together, tries
 
         try:
             fill()
             while running:
                 results: list[tuple[Job, Outcome]] = []
                 for future in wait(running, return_when=FIRST_COMPLETED).done:
-                    job, tries = running.pop(future)
+                    together, tries = running.pop(future)
                     if future.exception() is None:
-                        results.append((job, future.result()))
+                        results += zip(together, future.result(), strict=True)
+                    elif len(together) > 1:
+                        # Which of them killed the process is not known.
+                        alone.extend((job, 1) for job in together)
                     elif tries < TRIES:
-                        waiting.appendleft((job, tries + 1))
-                        retried(job)
+                        alone.append((together[0], tries + 1))
+                        retried(together[0])
                     else:
-                        results.append((job, failed(word("worker_died", job.making.language))))
+                        died = failed(word("worker_died", together[0].making.language))
+                        results.append((together[0], died))
                 # Start the next ones before results are written.
                 fill()
                 yield from results
@@ -205,7 +220,7 @@ def local(workers: int, samples: Collection[str] = (), out: Path | None = None) 
     return pool
 
 
-def _dismiss(running: Iterable[Future[Outcome]]) -> None:
+def _dismiss(running: Iterable[Future[list[Outcome]]]) -> None:
     """End all processes; return when none is left."""
     # A future that is cancelled while its result arrives would make its thread print a traceback.
     for end, seconds in ((BaseProcess.terminate, PATIENCE), (BaseProcess.kill, None)):
@@ -276,22 +291,27 @@ def _uninterrupted() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _work(job: Job) -> Outcome:
-    """Return the outcome, in a process that ends after it."""
+def _work(jobs: Sequence[Job]) -> list[Outcome]:
+    """Return the outcomes of some jobs, in a process that ends after them."""
     # Exit through every `finally`, so that no scratch folder and no typesetter is left behind.
     signal.signal(signal.SIGTERM, lambda *_: sys.exit())
     # There is already a process for each core.
     os.environ["RAYON_NUM_THREADS"] = "1"
     warnings.simplefilter("always", OutputWarning)
-    warnings.showwarning = lambda message, *_: print(f"reportgen: {job.folder}: {message}", file=sys.stderr, flush=True)
-    outcome = run_job(job)
+    outcomes = [_told(job) for job in jobs]
     # There is nothing left to clean up.
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     parent = parent_process()
     if parent is not None and not parent.is_alive():
         # The parent is gone, so the result could not be sent.
         os._exit(0)
-    return outcome
+    return outcomes
+
+
+def _told(job: Job) -> Outcome:
+    """Return the outcome of a job, whose warnings name its folder."""
+    warnings.showwarning = lambda message, *_: print(f"reportgen: {job.folder}: {message}", file=sys.stderr, flush=True)
+    return run_job(job)
 
 
 # --- calls within limits --------------------------------------------------------------------------
@@ -344,134 +364,3 @@ def _outcome(call: tuple[Argument, Future[Any]]) -> tuple[Argument, Any]:
     if fault is not None and not isinstance(fault, (TimeoutError, MemoryError, ProcessExpired)):
         raise fault
     return argument, None if fault is not None else future.result()
-
-
-# --- the same jobs on an existing Dask scheduler --------------------------------------------------
-# The only module that knows Dask.
-
-AHEAD_OF_EACH = 2
-"""Number of jobs submitted for each of the cluster's threads, so that none waits for the next one."""
-ANSWER = 10
-"""Seconds within which a scheduler must answer."""
-BEAT = 0.05
-"""Seconds between two polls of the futures."""
-WORKERLESS = 60
-"""Seconds without any worker after which waiting is given up."""
-
-_one_at_a_time = threading.Lock()
-
-
-class ClusterError(ReportgenError):
-    """The scheduler cannot be used: Dask is not installed, it does not answer, or it has gone; exit code 3."""
-
-    exit_code = SYSTEM
-
-
-class WorkersLostError(Exception):
-    """No worker was present for `WORKERLESS` seconds."""
-
-
-def cluster(address: str, language: Language | None) -> Pool:
-    """Return a pool of the workers of a Dask scheduler; raise `ClusterError` without Dask.
-
-    Jobs and files are sent as bytes: workers need this package in the same version, but no access to local files. A
-    worker may die; the scheduler gives its jobs to another one, at most `distributed.scheduler.allowed-failures` times.
-    Jobs of workers that all died are tried again one at a time at the end, because they may only have been queued
-    behind the one that killed them.
-    """
-    try:
-        import distributed
-    except ImportError as error:
-        raise ClusterError(word("no_dask", language)) from error
-
-    def pool(jobs: Iterable[Job], retried: Retried) -> Results:
-        try:
-            client = distributed.Client(address, timeout=ANSWER, set_as_default=False)
-        except (OSError, ValueError) as error:
-            raise ClusterError(word("no_scheduler", language, address=address)) from error
-        with client:
-            try:
-                suspects: list[Job] = []
-                yield from _results(client, iter(jobs), suspects.append)
-                for job in suspects:
-                    retried(job)
-                    (future,) = _first_done(client, [client.submit(_run, job, pure=False)])
-                    outcome = _received(job, future)
-                    yield job, outcome or failed(word("worker_died", job.making.language))
-            except WorkersLostError as error:
-                raise ClusterError(word("workers_lost", language, address=address)) from error
-            except (distributed.client.FutureCancelledError, OSError) as error:
-                raise ClusterError(word("scheduler_lost", language, address=address)) from error
-
-    return pool
-
-
-def _results(client: Any, jobs: Iterator[Job], suspect: Callable[[Job], None]) -> Results:
-    """Yield results as they arrive; few jobs are submitted at a time, so that results never pile up on workers."""
-    handed_out: dict[Any, Job] = {}
-
-    def hand_out() -> None:
-        room = AHEAD_OF_EACH * max(_threads(client), 1) - len(handed_out)
-        handed_out.update({client.submit(_run, job, pure=False): job for job in islice(jobs, max(room, 0))})
-
-    hand_out()
-    while handed_out:
-        for future in _first_done(client, list(handed_out)):
-            job = handed_out.pop(future)
-            outcome = _received(job, future)
-            hand_out()
-            if outcome is None:
-                suspect(job)
-            else:
-                yield job, outcome
-
-
-def _first_done(client: Any, futures: Sequence[Any]) -> set[Any]:
-    """Return the futures that are done, at least one.
-
-    Raises `WorkersLostError` if there has been no worker for `WORKERLESS` seconds; dead workers may come back before
-    that.
-    """
-    seen = time.monotonic()
-    while True:
-        done = {future for future in futures if future.done()}
-        if done:
-            return done
-        time.sleep(BEAT)
-        if _threads(client):
-            seen = time.monotonic()
-        elif time.monotonic() - seen > WORKERLESS:
-            raise WorkersLostError
-
-
-def _received(job: Job, future: Any) -> Outcome | None:
-    """Return the outcome of a job, which the cluster may then forget; None if its workers died.
-
-    Raises `OSError` or `FutureCancelledError` if the scheduler has gone.
-    """
-    from distributed import KilledWorker
-    from distributed.client import FutureCancelledError
-
-    try:
-        outcome: Outcome = future.result()
-    except KilledWorker:
-        return None
-    except (FutureCancelledError, OSError):
-        raise
-    except Exception as error:
-        # A job raises nothing itself: the worker could not even receive it, for example with another version.
-        return failed(unexpected(error, job.making.language))
-    finally:
-        future.release()
-    return outcome
-
-
-def _threads(client: Any) -> int:
-    """Return the number of threads of all current workers; workers may come and go."""
-    return sum(worker["nthreads"] for worker in client.scheduler_info(n_workers=-1)["workers"].values())
-
-
-def _run(job: Job) -> Outcome:
-    """Run a job on a worker; a process has one scratch folder, so it runs one job at a time."""
-    with _one_at_a_time:
-        return run_job(job)

@@ -14,7 +14,8 @@ from typing import Any
 import pytest
 
 from reportgen.classes.batch_run import Order, run_batch
-from reportgen.classes.worker_pool import ClusterError, Results, cluster
+from reportgen.classes.dask_cluster import ClusterError, cluster
+from reportgen.classes.worker_pool import Results
 from tests.classes.classes import Batch, tree, write_class
 from tests.lanes import proof
 
@@ -92,7 +93,7 @@ def test_a_scheduler_that_goes_keeps_what_is_done(tmp_path: Path) -> None:
 
 def test_nobody_answers(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     pytest.importorskip("distributed")
-    monkeypatch.setattr("reportgen.classes.worker_pool.ANSWER", 0.2)
+    monkeypatch.setattr("reportgen.classes.dask_cluster.ANSWER", 0.2)
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     for address in ("tcp://127.0.0.1:9", "nonsense://here"):
         with pytest.raises(ClusterError, match=address):
@@ -118,7 +119,7 @@ def test_without_dask_the_remedy_is_told(tmp_path: Path) -> None:
 @pytest.mark.proof
 def test_a_cluster_without_workers_is_not_waited_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     distributed = pytest.importorskip("distributed")
-    monkeypatch.setattr("reportgen.classes.worker_pool.WORKERLESS", 1)
+    monkeypatch.setattr("reportgen.classes.dask_cluster.WORKERLESS", 1)
     batch = Batch(tmp_path, {"K1": "seconds: 0"})
     with (
         distributed.LocalCluster(n_workers=0, processes=False, dashboard_address=":0") as running,
