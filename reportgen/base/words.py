@@ -71,10 +71,12 @@ TEMPLATES = "REPORTGEN_TEMPLATES"
 
 def templates_hash() -> str:
     """Return the SHA-256 of the names and contents of all templates, those of schools and own machines included."""
-    root, own, digest = templates(), named_school(), sha256()
-    for path in (*sorted(path for path in root.rglob("*") if path.is_file()), *(school_files(own) if own else ())):
-        name = path.relative_to(root if path.is_relative_to(root) else path.parent).as_posix()
-        _add(digest, name.encode(), path.read_bytes())
+    root, own, digest = str(templates()), named_school(), sha256()
+    paths = (os.path.join(folder, name) for folder, _, names in os.walk(root) for name in names)
+    named = sorted((path.removeprefix(root).replace(os.sep, "/"), path) for path in paths if os.path.isfile(path))
+    for name, path in (*named, *((path.name, str(path)) for path in (school_files(own) if own else ()))):
+        with open(path, "rb") as file:
+            _add(digest, name.encode(), file.read())
     for kind, machine in atlas_files().items():
         if is_own_machine(machine):
             _add(digest, kind.encode(), machine_source(machine).text.encode())
