@@ -34,11 +34,16 @@ def settled(values: Any, step: float = STEP) -> Any:
     """
     if isinstance(values, np.ndarray):
         if np.iscomplexobj(values):
-            return settled(values.real, step) + 1j * settled(values.imag, step)
+            parts = np.ascontiguousarray(values, dtype=np.complex128).view(np.float64)
+            return settled(parts, step).view(np.complex128).reshape(values.shape)
         return np.rint(values / step) * step + 0.0
     if isinstance(values, complex):
-        return complex(settled(values.real, step), settled(values.imag, step))
-    return round(values / step) * step + 0.0 if math.isfinite(values) else values
+        return complex(_rounded(values.real, step), _rounded(values.imag, step))
+    return _rounded(values, step)
+
+
+def _rounded(value: float, step: float) -> float:
+    return round(value / step) * step + 0.0 if math.isfinite(value) else value
 
 
 def significant(value: float, figures: int) -> float:

@@ -392,27 +392,25 @@ def _paths(vertices: Vertices) -> list[tuple[complex, ...]]:
     return [tuple(complex(place) for place in run[_telling(run)]) for run in runs if len(run) > 1]
 
 
-def _telling(places: NDArray[np.complex128]) -> list[int]:
-    """Return the indices of points that a simplified line keeps: its ends and, recursively, points too far from the
-    chord.
+def _telling(places: NDArray[np.complex128]) -> NDArray[np.intp]:
+    """Return the indices of points that a simplified line keeps: its ends and, repeatedly, the point furthest from each
+    chord, if that is too far.
 
     D. H. Douglas and T. K. Peucker, 1973.
     """
-    kept, parts = {0, len(places) - 1}, [(0, len(places) - 1)]
-    while parts:
-        first, last = parts.pop()
-        inner = places[first + 1 : last] - places[first]
-        if not len(inner):
-            continue
-        chord = places[last] - places[first]
-        share = (inner * chord.conjugate()).real / max(abs(chord) ** 2, TINY)
-        off = settled(np.abs(inner - np.minimum(np.maximum(share, 0.0), 1.0) * chord))
-        furthest = int(off.argmax())
-        middle = first + 1 + furthest
-        if off[furthest] > CLOSE:
-            kept.add(middle)
-            parts += [(first, middle), (middle, last)]
-    return sorted(kept)
+    kept = np.zeros(len(places), dtype=bool)
+    kept[[0, -1]] = True
+    while True:
+        ends = np.flatnonzero(kept)
+        chord = np.clip(np.searchsorted(ends, np.arange(len(places)), side="right") - 1, 0, len(ends) - 2)
+        start, along = places[ends[chord]], places[ends[chord + 1]] - places[ends[chord]]
+        share = ((places - start) * along.conj()).real / np.maximum(np.abs(along) ** 2, TINY)
+        off = settled(np.abs(places - start - np.minimum(np.maximum(share, 0.0), 1.0) * along))
+        greatest = np.maximum.reduceat(off, ends[:-1])
+        furthest = np.flatnonzero((off == greatest[chord]) & (off > CLOSE))
+        if not furthest.size:
+            return ends
+        kept[furthest[np.unique(chord[furthest], return_index=True)[1]]] = True
 
 
 def _marked(series: PlottedCurve, vertices: Vertices, pen: Pen, items: list[Item]) -> list[Request]:

@@ -126,7 +126,9 @@ def moved(item: Item, by: complex) -> Item:
             return Line(start + by, end + by, stroke)
         case Arrow(start, end, stroke, head, name):
             return Arrow(start + by, end + by, stroke, head, name)
-        case Circle(centre) | Arc(centre):
+        case Circle(centre, radius, outline, fill):
+            return Circle(centre + by, radius, outline, fill)
+        case Arc(centre):
             return replace(item, centre=centre + by)
         case Polyline(points) | Hatch(points):
             return replace(item, points=tuple(point + by for point in points))
@@ -327,8 +329,11 @@ class Ink:
 
     def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
         """Return the number of inked cells that each box covers [N], by centres and half sizes (mm)."""
-        low, high = settled(centres - half - self.low) / CELL, settled(centres + half - self.low) / CELL
-        x0, x1 = (np.clip(np.rint(at.real), 0, self.size[0]).astype(np.intp) for at in (low, high))
-        y0, y1 = (np.clip(np.rint(at.imag), 0, self.size[1]).astype(np.intp) for at in (low, high))
+        cells = settled(np.stack((centres - half, centres + half)) - self.low) / CELL
+        x, y = (
+            np.minimum(np.maximum(np.rint(at), 0), size).astype(np.intp)
+            for at, size in zip((cells.real, cells.imag), self.size, strict=True)
+        )
+        (x0, x1), (y0, y1) = x, y
         inked = self.inked
         return np.asarray(inked[x1, y1] - inked[x0, y1] - inked[x1, y0] + inked[x0, y0])

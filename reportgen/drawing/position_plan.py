@@ -286,9 +286,14 @@ def _covers(curve: Complexes, covered: Complexes) -> bool:
     """Return True if a curve lies on another one."""
     starts, steps = curve[:-1], np.diff(curve)
     sizes = np.where(np.abs(steps) > 0, np.abs(steps) ** 2, 1.0)
-    off = covered[:, None] - starts
-    share = np.clip((off * steps.conj()).real / sizes, 0.0, 1.0)
-    return bool(np.abs(off - share * steps).min(axis=1).max(initial=0.0) < TOGETHER)
+
+    def away(point: complex) -> float:
+        off = point - starts
+        share = np.clip((off * steps.conj()).real / sizes, 0.0, 1.0)
+        return float(np.abs(off - share * steps).min())
+
+    # Most curves differ at their first points.
+    return all(away(point) < TOGETHER for point in covered)
 
 
 def _radii(dense: Motion, centre: str, numbered: Sequence[str], scale: float) -> list[float]:

@@ -1,12 +1,9 @@
-"""`ReportContext`: the data that all templates, tables and figures of one report share.
-
-`template_names.names` lists the members that templates may name.
-"""
+"""`ReportContext`: the data that all templates (`template_names`), tables and figures of one report share."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +16,7 @@ from reportgen.catalogue.topic_sections import sections_of
 from reportgen.derivation.equation_sides import scheme
 from reportgen.derivation.kinematic_entries import links_in_plane_motion
 from reportgen.derivation.load_entries import Polygon
+from reportgen.document.figure_placement import FigureScenes
 from reportgen.document.template_rendering import Prose
 from reportgen.drawing.charts import Area
 from reportgen.formula import Symbol, ids, vocabulary
@@ -45,16 +43,16 @@ DENSE = 361
 class ReportContext:
     """A case together with the data and phrases that its report needs.
 
-    `enlarged` is the factor by which figures are later enlarged for a drawing sheet, with their letters; until then
-    they are drawn smaller than their scales by this factor.  Curves are drawn from `samples` of the cycle if they are
-    given.
+    Figures are drawn smaller than their scales by the factor `enlarged`, by which a drawing sheet enlarges them with
+    their letters.  Curves are drawn from `samples` of the cycle if there are any.  `used_symbols` are those of the
+    text, or None until it is written; `drawn` are figures kept by `drawn_once`.
     """
 
     case: MachineAnalysis
     enlarged: float = 1.0
     samples: Analysis | None = None
     used_symbols: frozenset[Symbol] | None = None
-    """The symbols that the text uses; None until the text is written."""
+    drawn: dict[str, FigureScenes] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     # --- its parts
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import takewhile
 
 import numpy as np
 
@@ -202,7 +203,8 @@ def polar(report: ReportContext) -> FigureScenes:
     if len(diagrams) == 1 or report.area is not None:
         return FigureScenes(tuple(draw() for draw in diagrams))
     for size in charts.POLAR_PAIRS:
-        scenes = tuple(draw(size=size) for draw in diagrams)
-        if all(scene.width <= charts.HALF_WIDTH for scene in scenes):
-            return FigureScenes(scenes)
+        scenes = (draw(size=size) for draw in diagrams)
+        narrow = tuple(takewhile(lambda scene: scene.width <= charts.HALF_WIDTH, scenes))
+        if len(narrow) == len(diagrams):
+            return FigureScenes(narrow)
     return FigureScenes(tuple(draw() for draw in diagrams))

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from functools import partial
+from functools import partial, wraps
 
 import numpy as np
 
@@ -58,6 +58,18 @@ LEGIBLE = 0.4
 """Smallest size of drawn groups, as a share of the scheme's size; smaller ones would be hard to read."""
 SHOWN_AT = 1
 """The index of the position at which schemes are drawn: the first one after the start."""
+
+
+def drawn_once(draw: Callable[[ReportContext], FigureScenes]) -> Callable[[ReportContext], FigureScenes]:
+    """Draw a figure of the report alone once: the text asks for its size and its place before it is shown."""
+
+    @wraps(draw)
+    def drawn(report: ReportContext) -> FigureScenes:
+        if draw.__name__ not in report.drawn:
+            report.drawn[draw.__name__] = draw(report)
+        return report.drawn[draw.__name__]
+
+    return drawn
 
 
 def drawing_scale(report: ReportContext) -> float:
@@ -144,6 +156,7 @@ def reduction(report: ReportContext) -> float:
     return next(factor for factor in REDUCTIONS if 1 / factor >= needed)
 
 
+@drawn_once
 def positions(report: ReportContext) -> FigureScenes:
     """Draw the position plan of one turn."""
     return as_large_as_asked(report, partial(positions_scene, report))
@@ -277,6 +290,7 @@ def _numbered(report: ReportContext) -> tuple[str, ...]:
 # --- the gas
 
 
+@drawn_once
 def indicator(report: ReportContext) -> FigureScenes:
     """Draw the indicator diagram in line with the first piston's stroke, with the readings of every piston."""
     return as_large_as_asked(report, partial(_indicator, report))
