@@ -27,9 +27,7 @@ FEW = 4
 """Number of students from which preloading pays; as many files are searched for their kind."""
 COLLECTED = 1_000_000
 """Number of new objects between two garbage collections: a report makes many lasting objects and hardly any cycles."""
-_KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
-
-
+_KIND, _LANGUAGE = re.compile(r"(?m)^kind: *([\w/-]+)"), re.compile(r"(?m)^  +language: *(\w+)")
 TYPESET = {product.name: product for product in PRODUCTS if product.typeset}
 """Products that are made completely, but for the typesetter; of a report in other formats, the document is made."""
 

@@ -43,6 +43,8 @@ def test_kind_and_language_are_read_off_a_spec_and_off_files(tmp_path: Path) -> 
     spec.write_text("kind: shaper\nsalt: 1\nreport:\n  language: en\n", encoding="utf-8")
     assert preload.samples(spec, None, "typst", ("task", "key")) == {"shaper:en:typst:task", "shaper:en:typst:key"}
     assert preload.samples(spec, "vi", "latex", ("docx", "page")) == {"shaper:vi:latex:"}
+    spec.write_text("kind: atlas/jaw-crusher\n", encoding="utf-8")
+    assert preload.samples(spec, "vi", "typst", ("report",)) == {"atlas/jaw-crusher:vi:typst:report"}
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "1.yaml").write_text("kind: four-bar\n", encoding="utf-8")
     (tmp_path / "a" / "2.yaml").write_bytes(b"\xff\xfe kind")
