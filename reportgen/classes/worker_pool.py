@@ -110,7 +110,8 @@ def failed(problem: str) -> Outcome:
 def run_job(job: Job) -> Outcome:
     """Run a job and return its outcome; any failure becomes an outcome too.
 
-    It runs in its own folder, whose name is removed from messages of failures.
+    It runs in its own folder, whose name is removed from messages of failures. Raises `MemoryError`, since there may be
+    enough memory in a process without earlier jobs.
     """
     engine, language = job.making.engine, job.making.language
     scratch, before = "", tempfile.tempdir
@@ -137,6 +138,8 @@ def run_job(job: Job) -> Outcome:
         return Outcome(problems=(without_paths(str(error)),), exit_code=error.exit_code)
     except OSError as error:
         return failed(word("system", language, text=error.strerror or error))
+    except MemoryError:
+        raise
     except Exception as error:
         # A bug of the program must not cost the others their results.
         return failed(without_paths(unexpected(error, language)))

@@ -108,6 +108,23 @@ def test_a_process_runs_a_few_jobs_and_fewer_towards_the_end() -> None:
         assert os.getpid() not in starters
 
 
+used: list[str] = []
+"""Jobs that a process has run, whose memory it may keep."""
+
+
+def room_for_one(path: Path, _engine: Engine, _language: Language | None) -> Mapping[str, bytes]:
+    used.append(path.stem)
+    if len(used) > 1 or path.stem == "K4":
+        raise MemoryError
+    return {"a.pdf": b""}
+
+
+def test_a_job_for_which_memory_is_left_only_alone_runs_alone() -> None:
+    jobs = jobs_of(room_for_one, *(f"K{k}" for k in range(7)))
+    codes = {job.student: outcome.exit_code for job, outcome in local(1)(jobs, lambda job: None)}
+    assert codes == {f"K{k}": 3 if k == 4 else 0 for k in range(7)}
+
+
 named_sockets = pytest.mark.skipif(not hasattr(socket, "AF_UNIX"), reason="no sockets with names")
 
 
