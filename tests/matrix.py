@@ -356,8 +356,8 @@ def cases() -> Iterator[tuple[str, str, Language | Literal[""], api.Engine, Exte
 
     Each subject runs each command in the default language and in one more. The second language changes from command to
     command and from subject to subject, so that every subject and every command has all of them; reports are also made
-    in every language that is no draft. Drafts have typst and the short extent only. All cases of a language follow each
-    other, because few calculations are cached.
+    in every language that is not a draft. Drafts have typst and the short extent only. All cases of a language follow
+    each other, because few calculations are cached.
     """
     for subject in subjects():
         for command in COMMANDS:

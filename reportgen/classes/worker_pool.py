@@ -1,10 +1,10 @@
 """Jobs and the local processes that run them; a process that dies harms no job but the one that killed it.
 
 A job is one product of one student. It has everything that determines its result, including the bytes of the assignment
-file. So it can run in this process, in another, or on another machine, and its result need not be made twice. Each
-process is started by pebble and runs a few jobs: their outcomes arrive on its own pipe, and all its memory is freed at
-its end. If it dies, each of its jobs gets a process of its own. Submitted files are also read in processes, each call
-within limits of time and memory.
+file. So it can run in this process, in another, or on another machine, and its result need not be made twice. pebble
+starts the processes. Each runs a few jobs, returns their outcomes through a pipe of its own and ends, which frees all
+its memory. If it dies, each of its jobs runs again in a separate process. Submitted files are also read in processes,
+with limits of time and memory for each call.
 """
 
 from __future__ import annotations
