@@ -15,7 +15,7 @@ from reportgen.page.edit_session import EditSession
 from reportgen.page.file_watch import edited
 from tests.lanes import proof
 from tests.page.browser import Browser, axe
-from tests.page.typist import Typist, edit_beside, form_alone, until
+from tests.page.typist import PATIENCE, Typist, edit_beside, form_alone, until
 
 MADE = {"product": "pdf", "state": "done", "files": [["report.pdf", "out/mine/report.pdf"]], "complaint": ""}
 OPEN = "return [...document.querySelectorAll('#making, #refused')].map((one) => one.textContent.trim()).join('')"
@@ -111,7 +111,7 @@ def test_a_refusal_outlives_the_news_of_an_earlier_change(browser: Browser, file
             return {**session.numbered_form(), "refused": "not now"} if body["op"] == "remove" else edit(body)
 
         def later(number: int, case: Case) -> None:
-            shown.wait(10.0)
+            assert shown.wait(PATIENCE)
             show(number, case)
 
         session.edit = no_removal  # type: ignore[method-assign, assignment]

@@ -15,7 +15,7 @@ import pytest
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.hand import READY, TOLD, hand_on
-from tests.page.typist import Typist, edit_beside, until
+from tests.page.typist import PATIENCE, Typist, edit_beside, until
 
 KNOB = """
 const { left, top, width, height } = document.querySelector(".handle circle").getBoundingClientRect();
@@ -53,7 +53,7 @@ def test_a_pin_changes_its_lengths_and_esc_takes_them_back(browser: Browser, tmp
         hand.move((24, -18))
         until(lambda: {key for key, text in hand.values().items() if text != values[key]} == {BC, CD})
         until(lambda: hand.at("C")[0] > here[0] + 12)
-        assert hand.values()[BC] in browser.run(TOLD)
+        until(lambda: hand.values()[BC] in browser.run(TOLD))
         until(lambda: browser.run(SHADED))
         Typist(browser).press("Escape")
         hand.release()
@@ -168,7 +168,7 @@ def test_a_pull_released_before_its_answer_is_written(browser: Browser, tmp_path
         before, pull, released = hand.file.read_bytes(), hand.session.pull, Event()
 
         def late(asked: Any) -> Any:
-            released.wait(10.0)
+            assert released.wait(PATIENCE)
             return pull(asked)
 
         hand.session.pull = late
@@ -188,14 +188,19 @@ def test_a_pull_released_before_its_answer_is_written(browser: Browser, tmp_path
 def test_a_second_pull_goes_on_where_the_first_one_ended(browser: Browser, tmp_path: Path, late: bool) -> None:
     """It is neither ended nor shown elsewhere by the machine of the first one, which arrives in the middle of it."""
     with hand_on(browser, "four-bar-01.yaml", tmp_path) as hand:
-        before, here, released = hand.file.read_bytes(), hand.at("C"), Event()
-        pull, shown = hand.session.pull, browser.run("return document.body.dataset.moving")
+        before, here, moving = hand.file.read_bytes(), hand.at("C"), browser.run("return document.body.dataset.moving")
+        pull, show, pressed, begun = hand.session.pull, hand.session.show, Event(), Event()
 
-        def waiting(asked: Any) -> Any:
-            released.wait(0.3)
+        def pull_late(asked: Any) -> Any:
+            assert pressed.wait(PATIENCE)
             return pull(asked)
 
-        hand.session.pull = waiting if late else pull
+        def show_late(*checked: Any) -> None:
+            assert begun.wait(PATIENCE)
+            show(*checked)
+
+        hand.session.pull = pull_late if late else pull
+        hand.session.show = show_late
         hand.press(here)
         hand.move((16, -12))
         if not late:
@@ -203,13 +208,14 @@ def test_a_second_pull_goes_on_where_the_first_one_ended(browser: Browser, tmp_p
         hand.release()
         hand.press(hand.at("C") if late else hand.where)
         hand.move((4, -3))
-        released.set()
+        pressed.set()
         until(lambda: hand.file.read_bytes() != before)
         first, values = hand.file.read_bytes(), hand.values()
         until(lambda: hand.at("C")[0] > here[0] + 12)
         browser.run(RECORD)
         hand.move((12, -9))
-        until(lambda: browser.run(RENEWED, shown))
+        begun.set()
+        until(lambda: browser.run(RENEWED, moving))
         hand.move((4, -3))
         until(lambda: hand.at("C")[0] > here[0] + 20)
         assert hand.values() != values
@@ -280,7 +286,7 @@ def test_the_tip_of_a_load_changes_its_size_and_esc_takes_it_back(browser: Brows
         until(lambda: {key for key, text in hand.values().items() if text != values[key]} == {field})
         until(lambda: abs(browser.run(TIP, "P3")[0] - here[0] - 20) < 6)
         assert browser.run(TIP, "P3")[1] == pytest.approx(here[1], abs=0.5)
-        assert hand.values()[field] in browser.run(TOLD)
+        until(lambda: hand.values()[field] in browser.run(TOLD))
         Typist(browser).press("Escape")
         hand.release()
         until(lambda: hand.values() == values)

@@ -13,7 +13,7 @@ from reportgen.page.edit_session import EditSession
 from tests.lanes import proof
 from tests.page.browser import Browser
 from tests.page.hand import hand_on
-from tests.page.typist import Typist, edit_beside, form_alone, until, value
+from tests.page.typist import PATIENCE, Typist, edit_beside, form_alone, until, value
 
 PRESS = """
 document.activeElement.dispatchEvent(new KeyboardEvent("keydown", { key: arguments[0], bubbles: true }));
@@ -55,17 +55,17 @@ def test_the_machine_follows_a_value_that_is_taken_back(browser: Browser, tmp_pa
 
         def late(asked: Any) -> Any:
             begun.set()
-            released.wait(10.0)
+            assert released.wait(PATIENCE)
             answer = drag(asked)
             answered.set()
             return answer
 
         hand.session.drag = late
         browser.run(PRESS, "PageUp")
-        begun.wait(10.0)
+        assert begun.wait(PATIENCE)
         browser.run(PRESS, "Escape")
         released.set()
-        answered.wait(10.0)
+        assert answered.wait(PATIENCE)
         hand.session.drag = drag
         # The next question is asked after this answer has come.
         browser.run(FOCUS, CD)
@@ -144,7 +144,7 @@ def test_a_value_typed_after_a_pull_is_neither_changed_nor_undone_with_it(browse
         values, pull, released = hand.values(), hand.session.pull, Event()
 
         def late(asked: Any) -> Any:
-            released.wait(10.0)
+            assert released.wait(PATIENCE)
             return pull(asked)
 
         hand.session.pull = late
@@ -176,7 +176,7 @@ def test_a_pull_begins_when_the_last_one_is_written(browser: Browser, tmp_path: 
 
         def late(body: Any) -> Any:
             asked.append((body["grab"], tuple(body["to"])))
-            released.wait(10.0)
+            assert released.wait(PATIENCE)
             return pull(body)
 
         hand.session.pull = late
