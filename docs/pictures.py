@@ -14,7 +14,6 @@ import tempfile
 import time
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -25,6 +24,7 @@ from screens import Screen, first_report
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import kinds
+from reportgen.base.records import replace
 from reportgen.base.template_folders import is_of_atlas
 from reportgen.document import Document, Figure
 

@@ -6,7 +6,7 @@ A kind's module defines either `machine`, which makes a `Machine` of an assignme
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import takewhile
 from pathlib import Path
@@ -17,6 +17,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.assignment.common import Drawing
+from reportgen.base.records import replace
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.topics import topics
 from reportgen.base.translation_coverage import is_topic_whole

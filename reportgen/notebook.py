@@ -5,7 +5,6 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from decimal import Decimal
 from functools import cached_property
 from itertools import product
@@ -22,7 +21,7 @@ from reportgen.assignment.fields import Quantity
 from reportgen.assignment.reading import name_faults
 from reportgen.base.errors import AssignmentError, NotOfferedError, UnknownNameError
 from reportgen.base.files import put_file, reported
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Given, Language, read_unit
 from reportgen.base.words import as_error, language_of, unknown, word
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source, read_text
@@ -282,8 +281,7 @@ def _unit_of(annotation: Any, *metadata: Any) -> str:
     return next((unit for part in get_args(annotation) if (unit := _unit_of(part))), "")
 
 
-@record
-class ShownFigure:
+class ShownFigure(Record):
     """A figure of a report: a drawing, several drawings together, or a moving figure."""
 
     name: str
@@ -331,8 +329,7 @@ class ShownFigure:
         return figures.drawn([self.scene], self.language)["svg"][0].decode()
 
 
-@record
-class ResultTable:
+class ResultTable(Record):
     """Results with a row per position; a column is named by the path to its number in the JSON of `solve`."""
 
     columns: tuple[str, ...]

@@ -15,7 +15,7 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -25,6 +25,7 @@ import numpy as np
 from reportgen import api
 from reportgen.base.errors import ReportgenError
 from reportgen.base.files import folder as kept_in
+from reportgen.base.records import replace
 from reportgen.base.template_folders import search_path, templates
 from reportgen.base.words import load_words, sections
 from reportgen.case import MachineAnalysis

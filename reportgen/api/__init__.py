@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,6 +26,7 @@ from reportgen.base.files import put_files, reported, scratch, version
 from reportgen.base.output_formats import ENGINE, PRODUCTS, chosen, names, usual
 from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
 from reportgen.base.progress import step
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.base.words import templates_hash, word
 from reportgen.case import bounded

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -14,7 +13,7 @@ from reportgen.assignment import Assignment
 from reportgen.base.languages import setting_of
 from reportgen.base.pdf_standards import STANDARDS, Standards
 from reportgen.base.progress import step
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import school_folder
 from reportgen.case import bounded
 
@@ -27,8 +26,7 @@ if TYPE_CHECKING:
     from reportgen.writers.pdflatex import Ahead
 
 
-@record
-class ReportJob:
+class ReportJob(Record):
     """A report to write: its case and its tree; for a typesetter also the letter, and the opening read `ahead`."""
 
     case: Case
@@ -97,8 +95,7 @@ def _written(assignment: Assignment, tree: Document, look: Path | None) -> bytes
 # --- keys -----------------------------------------------------------------------------------------
 
 
-@record
-class KeyJob:
+class KeyJob(Record):
     """An answer key to write, and its case."""
 
     case: Case
@@ -146,8 +143,7 @@ def dated(tree: Document, case: Case) -> Document:
 # --- drawing sheets -------------------------------------------------------------------------------
 
 
-@record
-class SheetJob:
+class SheetJob(Record):
     """A drawing sheet to write, and the case that it shows."""
 
     case: Case

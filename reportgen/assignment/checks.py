@@ -13,7 +13,7 @@ from typing import Any
 
 from reportgen.assignment.common import Check, Draft, Labels, labels_of, named_worked, number_of
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import is_school, school_strays
 from reportgen.base.units import QuantityFault, read_number, read_quantity
 
@@ -53,8 +53,7 @@ def instants(draft: Draft) -> Iterator[Finding]:
             yield Finding("repeated", ("positions", "at", index), {"text": str(text)})
 
 
-@record
-class OneOf:
+class OneOf(Record):
     """Check that the section has one of several keys with the same meaning (at most one unless `required`).
 
     A nested section is named by its path, as "parameters.driver". With `form`, the check applies only if the
@@ -89,8 +88,7 @@ def one_of(section: str, *names: str, required: bool = True, form: tuple[str, st
     return OneOf(section, names, required, form)
 
 
-@record
-class SameLength:
+class SameLength(Record):
     """Check that rows have as many values as the list `key`; those that differ from most of them are at fault."""
 
     section: str
@@ -116,8 +114,7 @@ def same_length(section: str, key: str, rows: Sequence[str]) -> SameLength:
     return SameLength(section, key, tuple(rows))
 
 
-@record
-class Increasing:
+class Increasing(Record):
     """Check that a list increases strictly from `first` to `last` (in `unit`)."""
 
     section: str

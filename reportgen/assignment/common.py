@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -26,7 +25,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding, UnknownNameError
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Given, Language
 from reportgen.base.words import named_school, unknown
@@ -148,8 +147,7 @@ class SheetSection(Part):
     course: OneLine | None = None
 
 
-@record
-class Draft:
+class Draft(Record):
     """An assignment during checking: plain content, and the sections that are valid on their own."""
 
     raw: Mapping[str, Any]
@@ -170,8 +168,7 @@ Labels = Callable[[Any, Positions], Sequence[str]]
 """Function that returns the labels of the positions of the cycle, from the parameters and the positions of a turn."""
 
 
-@record
-class Kind:
+class Kind(Record):
     """Data of a kind of machine that the reader needs.
 
     `base` are the parameters of the kind itself, to which `topics` add sections: `extended` returns the parameters with
@@ -220,8 +217,7 @@ class Kind:
         return self.has_positions or POSITIONS in self.base.model_fields
 
 
-@record
-class Assignment:
+class Assignment(Record):
     """A valid assignment file: text kept as typed, quantities in SI beside their typed text.
 
     `parameters` and `indicator` are models of the kind; `turns` of the driver make a cycle; `id` is the stem of the
@@ -322,16 +318,14 @@ class Assignment:
         return replace(self, report=self.report.model_copy(update={"listing": True}))
 
 
-@record
-class SolvedLength:
+class SolvedLength(Record):
     """A length that a part finds: its id in the part, and the length as the part prints it, with its unit."""
 
     id: str
     text: str
 
 
-@record
-class LengthOfPart:
+class LengthOfPart(Record):
     """A length that a machine takes from a part: the machine's key, the part by its index, the id in the part."""
 
     key: str
@@ -339,8 +333,7 @@ class LengthOfPart:
     id: str
 
 
-@record
-class TakenDatum:
+class TakenDatum(Record):
     """A value that a part takes from the machine: its key, the path of the machine's value, the ratio as typed."""
 
     key: str
@@ -348,8 +341,7 @@ class TakenDatum:
     times: str = "1"
 
 
-@record
-class AssignedPart:
+class AssignedPart(Record):
     """A part of a coursework with its assignment.
 
     Its ids begin with `head`, like those of its kind; in the coursework they begin with `name`, which is unique among

@@ -15,7 +15,7 @@ from typing import Annotated, Any
 from pydantic import Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import PydanticCustomError, core_schema
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import languages, school_folder, school_strays, schools, templates
 from reportgen.base.timestamps import moment
 from reportgen.base.typing_mistakes import in_quotes
@@ -48,8 +48,7 @@ def fault(code: str, **arguments: str) -> PydanticCustomError:
     return PydanticCustomError("fault", "{code}", {"code": code, **arguments})
 
 
-@record
-class Reader:
+class Reader(Record):
     """Base of the readers: `read` makes a value of the text in the file, `schema` describes that text."""
 
     def read(self, value: object) -> Any:
@@ -67,8 +66,7 @@ class Reader:
         return self.schema()
 
 
-@record
-class Interval:
+class Interval(Record):
     """Range of a number; `above` and `below` are open ends, `least` and `most` closed ones.
 
     A number smaller than `tiny` but not 0 is a typing mistake, too: no machine has a mass of 1e-300 kg.
@@ -109,7 +107,6 @@ class Interval:
         return {key: end for key, end in ends if math.isfinite(end)}
 
 
-@record
 class Quantity(Reader):
     """A number with a unit of the dimension of `unit`, its value in `unit` within `interval`."""
 
@@ -126,7 +123,6 @@ class Quantity(Reader):
         return {**typed, UNIT_KEY: self.unit, RANGE_KEY: self.interval.schema()}
 
 
-@record
 class SchoolFolder(Reader):
     """The folder of a school's own words beside those of the languages, such as templates/tnut/ for `tnut`."""
 
@@ -143,7 +139,6 @@ class SchoolFolder(Reader):
         return {"type": "string", "pattern": f"^{_SLUG}$"}
 
 
-@record
 class LanguageName(Reader):
     """A language that has a folder of words."""
 
@@ -156,7 +151,6 @@ class LanguageName(Reader):
         return {"type": "string", "enum": list(languages())}
 
 
-@record
 class UnitOf(Reader):
     """The name of a unit of the dimension of `unit`: one of it, as a `Given`."""
 
@@ -169,7 +163,6 @@ class UnitOf(Reader):
         return {"type": "string", "pattern": f"^{_UNIT_PATTERN}$", "examples": [self.unit], UNIT_NAME_KEY: self.unit}
 
 
-@record
 class Ratio(Reader):
     """A pure number, `0.35` or `1/3.6`; with `inverse`, a value of 1 or more is read as the inverse ratio."""
 
@@ -191,7 +184,6 @@ class Ratio(Reader):
         return {"anyOf": [number, typed]}
 
 
-@record
 class Decimal(Reader):
     """A pure number of a table: no unit, no fraction."""
 
@@ -206,7 +198,6 @@ class Decimal(Reader):
         return {"type": "number", **self.interval.schema()}
 
 
-@record
 class Percent(Reader):
     """A share from 0 to 1, written `80 %` or `0.8`."""
 
@@ -226,7 +217,6 @@ class Percent(Reader):
         }
 
 
-@record
 class Whole(Reader):
     """A whole number from `least` to `most`."""
 
@@ -244,7 +234,6 @@ class Whole(Reader):
         return {"type": "integer", "minimum": self.least, "maximum": self.most}
 
 
-@record
 class Flag(Reader):
     """`true` or `false`."""
 
@@ -257,7 +246,6 @@ class Flag(Reader):
         return {"type": "boolean"}
 
 
-@record
 class TypedText(Reader):
     """One line of text, kept as typed, without typographic quotation marks around the whole of it."""
 
@@ -275,7 +263,6 @@ class TypedText(Reader):
         return {"type": ["string", "number", "boolean", "null"], "maxLength": LONGEST_TEXT}
 
 
-@record
 class Day(Reader):
     """A date, `2011-03-24`."""
 
@@ -292,7 +279,6 @@ class Day(Reader):
         return {"type": ["string", "null"], "pattern": "^[0-9]{4}-[0-9]{2}-[0-9]{2}$", "format": "date"}
 
 
-@record
 class Until(Reader):
     """A moment until which something is valid, `2026-11-20 23:59`; a date alone means the end of that day.
 
@@ -311,7 +297,6 @@ class Until(Reader):
         return {"type": "string"}
 
 
-@record
 class WorkedPositions(Reader):
     """Positions to write out in full: a list of numbers from 1 and of labels, or "all" (None).
 
@@ -362,7 +347,6 @@ def quantity(unit: str, **ends: float) -> Quantity:
     return Quantity(unit, Interval(**ends))
 
 
-@record
 class Either(Reader):
     """A quantity of one dimension or of another: the angle of a crank, or the displacement of a slider."""
 
@@ -385,7 +369,6 @@ FIND = "find"
 """Word in place of a quantity that the program is to find."""
 
 
-@record
 class NumberOrAngle(Reader):
     """A pure number, or an angle with its unit: the argument of ln x or of sin x."""
 
@@ -413,7 +396,6 @@ def _number_or_quantity(text: str) -> Given:
     return read_ratio(text, fractions=False)
 
 
-@record
 class Sought(Reader):
     """A quantity, or None for `find`."""
 

@@ -13,7 +13,7 @@ import warnings
 from collections.abc import Callable, Mapping
 from functools import lru_cache
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import NUMBER, Dimension, Given, scale
 
 LONGEST_FORMULA = 120
@@ -31,8 +31,7 @@ PLAIN: Dimension = ()
 ANGLE = scale("rad")[1]
 
 
-@record
-class Amount:
+class Amount(Record):
     """A value in SI units with its dimension."""
 
     si: float
@@ -91,8 +90,7 @@ class FormulaError(ValueError):
         self.arguments = arguments
 
 
-@record
-class Formula:
+class Formula(Record):
     """A parsed formula: its text, its tree, its quantities as typed, and the names of its parameters."""
 
     text: str

@@ -11,7 +11,6 @@ import re
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from pathlib import Path
 
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, Kind, NamedPart, TakenDatum
@@ -19,6 +18,7 @@ from reportgen.assignment.fields import FIND
 from reportgen.base.errors import Fault, Where
 from reportgen.base.files import leads_out
 from reportgen.base.kinds import kinds
+from reportgen.base.records import replace
 from reportgen.base.units import NUMBER, QuantityFault, read_ratio
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
 from reportgen.base.yaml_values import at, put, without

@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import unicodedata
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, TypeVar
@@ -17,10 +16,11 @@ from reportgen.assignment import lengths_of_parts, parts
 from reportgen.assignment.checks import instants, school_of, worked_positions
 from reportgen.assignment.common import PARTS, Assignment, Draft, Drawing, Kind, Positions, sections
 from reportgen.assignment.fields import RESERVED
-from reportgen.assignment.schema import keys_at
+from reportgen.assignment.schema import keys_at, section_schema
 from reportgen.assignment.suggestions import with_suggestions
 from reportgen.base.errors import Fault, Finding, Location, Where
 from reportgen.base.files import contents, leads_out
+from reportgen.base.records import replace
 from reportgen.base.template_folders import is_of_atlas, school_files
 from reportgen.base.typing_mistakes import meant, slip
 from reportgen.base.units import Language, two_readings
@@ -298,9 +298,7 @@ def _section(
         return adapter.validate_python(content), []
     except ValidationError as error:
         details = _telling(error.errors(include_url=False))
-    schema = (
-        TypeAdapter(whole()[key][0]).json_schema() if any(one["type"] == "extra_forbidden" for one in details) else {}
-    )
+    schema = section_schema(whole()[key][0]) if any(one["type"] == "extra_forbidden" for one in details) else {}
     findings = [_finding(key, detail, content, schema) for detail in details]
     if all(detail["type"] == "extra_forbidden" for detail in details):
         return adapter.validate_python(content, extra="ignore"), findings

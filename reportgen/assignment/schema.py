@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from pydantic import BaseModel
+from pydantic import BaseModel, TypeAdapter
 from pydantic.json_schema import GenerateJsonSchema, JsonSchemaMode, models_json_schema
 
 from reportgen.assignment.checks import Increasing, OneOf, SameLength
@@ -45,6 +45,8 @@ class _Generator(GenerateJsonSchema):
     def encode_default(self, dft: Any) -> Any:
         if isinstance(dft, Given):
             return dft.text
+        if isinstance(dft, tuple):
+            return [self.encode_default(part) for part in dft]
         if isinstance(dft, BaseModel):
             return {}
         return super().encode_default(dft)
@@ -193,6 +195,11 @@ def alternatives_to(kind: Kind, path: Sequence[str], values: Mapping[str, str] |
     if values is not None:
         checks = [check for check in checks if check.form is None or values.get(check.form[0]) == check.form[1]]
     return [name for check in checks if path[-1] in check.names for name in check.names if name != path[-1]]
+
+
+def section_schema(content: Any) -> Schema:
+    """Return the JSON Schema of the type of a section's content."""
+    return TypeAdapter(content).json_schema(schema_generator=_Generator)
 
 
 def keys_at(schema: Schema, where: Where) -> list[str]:

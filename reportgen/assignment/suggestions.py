@@ -6,13 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.common import Kind
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import alternatives_to, choices_of, file_schema, keys_at, places
 from reportgen.base.errors import Finding, Where
+from reportgen.base.records import replace
 from reportgen.base.units import measures
 
 SECTION = "parameters"

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing import Circle, Content, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import Fact, PaperLength, direction, fact
@@ -21,8 +21,7 @@ ARM = 1.0
 """Half the width of an arm (mm)."""
 
 
-@record
-class CounterweightDisc:
+class CounterweightDisc(Record):
     """A counterweight: its centre and the centre of its link (m), its mass (kg), its label."""
 
     at: complex

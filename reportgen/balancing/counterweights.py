@@ -8,10 +8,9 @@ at crank and rocker are zero.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint
 
 BESIDE = 1e-12
@@ -21,8 +20,7 @@ CounterweightRule = Literal["rms", "max", "rotating", "share"]
 """Rule by which a counterweight on the crank is chosen."""
 
 
-@record
-class Balancing:
+class Balancing(Record):
     """Balancing in a report: the shaking force alone, a counterweight on the crank, or counterweights on the `links`.
 
     A counterweight on the crank follows the first of the `rules`, and is compared with the others; those on the `links`
@@ -35,8 +33,7 @@ class Balancing:
     radius: float = 0.0
 
 
-@record
-class Counterweight:
+class Counterweight(Record):
     """A counterweight on a link: U = m_c r_c e^{iψ} (kg·m) in the link's frame, `radius` r_c (m) from its pivot."""
 
     link: int
@@ -62,8 +59,7 @@ def balanced(linkage: Linkage, weights: Iterable[Counterweight]) -> Linkage:
     return replace(linkage, points=(*linkage.points, *points), inertias=(*linkage.inertias, *bodies))
 
 
-@record
-class CrankRod:
+class CrankRod(Record):
     """A slider's rod on the crank as two point masses: m_A turns with the pin, m_B reciprocates with the slider.
 
     m_A = m (1 − s), m_B = m s with s = l_AS/l give the same force, though not the same moment.  The rod lies between

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.balancing.counterweights import CrankRod, crank_rods
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.machine import GROUND, Crank, Guide, Linkage
 
 SAME = 1e-9
@@ -21,8 +21,7 @@ SAME = 1e-9
 FORWARD, BACKWARD = 1, -1
 
 
-@record
-class EngineCylinder:
+class EngineCylinder(Record):
     """A cylinder in line with the crank's centre: its slider, its angle β and its pin's angle ψ on the crank (rad)."""
 
     slider: int
@@ -34,8 +33,7 @@ class EngineCylinder:
         return complex(np.exp(1j * (self.bank + sense * order * (self.pin - self.bank))))
 
 
-@record
-class Engine:
+class Engine(Record):
     """Equal cylinders: crank r and rod l (m), and the mass that reciprocates in each (kg)."""
 
     cylinders: tuple[EngineCylinder, ...]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 
+from reportgen.base.records import replace
 from reportgen.case.design_case import Designed, DesignPage
 from reportgen.document import Column, InlineMath, Inlines, Table, Text, Value
 from reportgen.formula import Number, Symbol

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
@@ -14,6 +14,7 @@ from reportgen.balancing.places_page import PlacesPage, bare
 from reportgen.balancing.rotor_calculation import AFTER, AXES, BEFORE
 from reportgen.balancing.rotor_file import BEARINGS, RIGHT
 from reportgen.balancing.rotor_solution import SolvedRotor
+from reportgen.base.records import replace
 from reportgen.case.missing_chapters import MissingChapter
 from reportgen.case.result_entries import ResultEntries
 from reportgen.case.shafts import Shaft

@@ -9,7 +9,6 @@ from pydantic import Field
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Coordinate, Length, Quantity, Reader, RotationalSpeed, quantity
-from reportgen.base.records import record
 from reportgen.base.template_access import template_members
 from reportgen.base.units import Given
 
@@ -22,7 +21,6 @@ BEARINGS = ("C", "D")
 FIND = "find"
 
 
-@record
 class SoughtQuantity(Reader):
     """A quantity, or `find` for one that balance determines, whose value is nan."""
 

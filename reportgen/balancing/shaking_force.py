@@ -10,7 +10,7 @@ circle's touching points prove that nothing is better.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
@@ -26,7 +26,7 @@ from reportgen.balancing.counterweights import (
     turning_part,
 )
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.machine import DRIVER, GROUND, Crank, Linkage, joints
 from reportgen.machine.analysis import Analysis, Machine, analyse, motion_at
 from reportgen.machine.force_analysis import inertia_loads, reaction_name, solve_forces
@@ -197,8 +197,7 @@ def seen_from_crank(machine: Machine) -> CrankCurve:
 # --- the smallest circle ----------------------------------------------------------------------------
 
 
-@record
-class SmallestCircle:
+class SmallestCircle(Record):
     """The smallest circle round a curve: centre and radius (kg·m), and the two or three places θ (rad) where it
     touches.
     """

@@ -12,7 +12,7 @@ from reportgen.balancing.counterweight_drawings import CounterweightDisc, with_d
 from reportgen.balancing.ledger import AFTER, AXES, BEFORE, LETTERS
 from reportgen.balancing.order_views import factors_table
 from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, frame_reactions, shaking_force
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.document import Value
 from reportgen.document.figure_placement import FigureScenes
@@ -41,8 +41,7 @@ def _turn(report: ReportContext) -> BalancedTurn:
 
 
 @view("link", "parts", "lines")
-@record
-class ShakenLink:
+class ShakenLink(Record):
     """A link whose inertia shakes the frame.
 
     `parts` are the ids of the components of its force; `lines` those of the arms of the force and of its moment.
@@ -54,8 +53,7 @@ class ShakenLink:
 
 
 @view("name", "lines", "masses")
-@record
-class BalancingRule:
+class BalancingRule(Record):
     """A rule for the counterweight on the crank: "rms", "max", "rotating" or "share".
 
     `lines` are the ids of the inputs of U, of U and of its angle. `masses` are the ids of the point masses of rods at

@@ -12,7 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import DEFAULT_LANGUAGE, REFERENCE, atlas_files, is_own_machine
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import STRANGE, MappingNode, Source, in_a_line, plain, read_source, read_words
@@ -72,8 +72,7 @@ def _sound(value: Any) -> Any:
     return text if text and len(text) <= LONGEST_WORDS and not STRANGE.search(text) else None
 
 
-@record
-class ParameterWords:
+class ParameterWords(Record):
     """What the form says of a parameter besides its name: its bounds as typed, and the key of its group."""
 
     range: str

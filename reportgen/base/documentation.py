@@ -10,10 +10,9 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from pathlib import Path
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import REFERENCE, documentation, languages
 from reportgen.base.units import Language
 from reportgen.base.words import spoken
@@ -27,8 +26,7 @@ _HEADING = re.compile(r"(?P<marks>##|###) (?P<title>.+)")
 _ENTRY = re.compile(r"- \[(?P<title>[^\]]+)\]\((?P<link>[^)]+)\)(?:: (?P<summary>.+))?")
 
 
-@record
-class IndexEntry:
+class IndexEntry(Record):
     """A page in the index: the kind of page (`group`), the subject within it or "", and one line of what it says."""
 
     group: str

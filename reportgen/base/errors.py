@@ -7,14 +7,12 @@ the caller. This module contains no words: `message` is already in the requested
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, replace
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace, uncompared
 
 
-@record
-class Location:
+class Location(Record):
     """A place in a file; `line` and `column` count from 1."""
 
     file: str
@@ -33,7 +31,6 @@ class Location:
         return (self.file, 0, self.line, self.column)
 
 
-@record
 class CellLocation(Location):
     """A cell of a spreadsheet file: `line` is its row; `number` orders the sheets, from 1."""
 
@@ -63,8 +60,8 @@ Where = tuple[str | int, ...]
 """A place in the content of a file: keys and list indices from the top."""
 
 
-@record
-class Fault:
+@uncompared("where")
+class Fault(Record):
     """A fault at a location of a text; `arguments` fill the message named by `code`.
 
     An argument `hint` names a hint that replaces the code's own.
@@ -73,7 +70,7 @@ class Fault:
     code: str
     location: Location
     arguments: Mapping[str, str] = field(default_factory=dict)
-    where: Where = field(default=(), compare=False)
+    where: Where = ()
     """The path in the content of its file, if there is one."""
 
     @property
@@ -100,8 +97,7 @@ class Fault:
         return f"{self.code} {self.arguments.get('reason', '')}".rstrip()
 
 
-@record
-class Finding:
+class Finding(Record):
     """A fault of the content at a path of the file, before its location is known; `at` its value or its key."""
 
     code: str
@@ -110,8 +106,8 @@ class Finding:
     at: Literal["value", "key"] = "value"
 
 
-@record
-class Problem:
+@uncompared("where", "remedies", "missing")
+class Problem(Record):
     """One fault of an input file: `FILE:LINE:COLUMN: error[code]: message` and an optional hint.
 
     A valid file may have warnings, and notes on how it was understood. `advice` is the label of a hint; `where`,
@@ -124,9 +120,9 @@ class Problem:
     hint: str | None = None
     level: Level = "error"
     advice: str = "hint"
-    where: Where = field(default=(), compare=False)
-    remedies: tuple[str, ...] = field(default=(), compare=False)
-    missing: tuple[Where, ...] = field(default=(), compare=False)
+    where: Where = ()
+    remedies: tuple[str, ...] = ()
+    missing: tuple[Where, ...] = ()
 
     def in_file(self, file: str) -> Problem:
         """Return the same problem, its file named as `file`."""

@@ -17,7 +17,7 @@ from typing import Any
 from reportgen.base.atlas_words import machine_parameters, machine_words
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import setting_of
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import kind_words, languages, machine_files, topic_file, words_file
 from reportgen.base.topics import topics
 from reportgen.base.units import Language
@@ -29,8 +29,7 @@ CHOICES = "choices"
 PARAMETERS = "parameters"
 
 
-@record
-class FieldWords:
+class FieldWords(Record):
     """Labels of a key: its name, a remark about its use, and the title of its group."""
 
     name: str

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import field, fields
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Literal
 
 from reportgen.base.errors import TemplateError
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.template_folders import LANGUAGE_FILE, Language, languages, templates
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, read_own, text_in
 
@@ -21,8 +20,7 @@ DecimalMark = Literal[".", ","]
 _LETTERS = re.compile("[^\\W\\d_¹²³⁰-⁹]+")
 
 
-@record
-class TypstSetting:
+class TypstSetting(Record):
     """Settings of Typst for the language: its code, perhaps a region, hyphens, and fonts for missing letters.
 
     `strong` are the fonts for missing letters in headings and bold text, if they differ.
@@ -35,8 +33,7 @@ class TypstSetting:
     strong: tuple[str, ...] = ()
 
 
-@record
-class WordSetting:
+class WordSetting(Record):
     """Fonts of a Word file: size in points, font, and font for East Asian characters."""
 
     size: float = 12.0
@@ -44,16 +41,14 @@ class WordSetting:
     east_asian: str = ""
 
 
-@record
-class DrawingSetting:
+class DrawingSetting(Record):
     """Fonts of DXF files: `style` is a stroke font in LibreCAD, `font` the font in all other programs."""
 
     style: str = "lc_opengost-ar"
     font: str = "arial.ttf"
 
 
-@record
-class PageMargins:
+class PageMargins(Record):
     """Margins around the text of a page (mm)."""
 
     left: float = 30.0
@@ -67,8 +62,7 @@ class PageMargins:
         return self.left + self.right > 50 or self.top + self.bottom > 42 or min(self.left, self.right) < 5
 
 
-@record
-class MobilityNotation:
+class MobilityNotation(Record):
     """Notation of the degree of freedom: 3n − (2t + c) + r − s; or `apart`, 3n − 2t − c, with r and s unless zero.
 
     The letters are for the freedom, moving links, lower and higher pairs, passive constraints, redundant freedoms.
@@ -78,8 +72,7 @@ class MobilityNotation:
     apart: bool = False
 
 
-@record
-class ReadingWords:
+class ReadingWords(Record):
     """Words by which a reader of students' reports recognises the meaning of a text.
 
     In a word, `*` matches any ending; `#` is the place of the number, which otherwise follows the word.
@@ -119,8 +112,7 @@ class ReadingWords:
     """Heads of a table over the names of positions, besides `position`."""
 
 
-@record
-class LanguageSetting:
+class LanguageSetting(Record):
     """Content of `language.yaml`, with the defaults of the keys that it leaves out.
 
     `latex` are the font encodings that pdflatex needs, empty if only Typst can set the language. `block` is the
@@ -267,13 +259,13 @@ _PARTS: Mapping[str, type[Any]] = {
 def _table(form: type[Any], node: Node | None, place: str) -> Any:
     if not isinstance(node, MappingNode):
         raise TemplateError(f"{node.location if node else place}: a table is wanted here")
-    known = {field.name: field for field in fields(form)}
+    known: Mapping[str, str] = form.__annotations__
     values: dict[str, Any] = {}
     for key, value in node.entries:
         if key.text not in known:
             raise TemplateError(f"{key.location}: {key.text} is no key here; those are {', '.join(known)}")
         part = _PARTS.get(key.text) if form is LanguageSetting else None
-        values[key.text] = _table(part, value, place) if part else _value(str(known[key.text].type), value)
+        values[key.text] = _table(part, value, place) if part else _value(known[key.text], value)
         if isinstance(values[key.text], PageMargins) and values[key.text].narrow:
             raise TemplateError(f"{value.location}: figures and tables need a page with 160 mm across and 255 mm down")
     try:

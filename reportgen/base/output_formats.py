@@ -10,14 +10,13 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 ENGINE, TYPST, MATPLOTLIB, PILLOW = "the typesetter of `--engine`: Typst or LaTeX", "Typst", "matplotlib", "Pillow"
 OPENPYXL, EZDXF, FFMPEG = "openpyxl", "ezdxf", "ffmpeg"
 
 
-@record
-class Format:
+class Format(Record):
     """One format of one product.
 
     `name` is its name in `--format`, and the ending of its files unless `ending` is given. `writer` is
@@ -54,8 +53,7 @@ class Format:
         return _imported(self.writer)
 
 
-@record
-class BatchProduct:
+class BatchProduct(Record):
     """A product that `batch --make` knows by `name`: the function that makes its files, and how a batch treats them."""
 
     name: str

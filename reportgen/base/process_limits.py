@@ -20,7 +20,7 @@ from threading import Thread, Timer
 from typing import Any, TypeVar
 
 from reportgen.base.errors import OutputWarning
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 Argument = TypeVar("Argument")
 Result = TypeVar("Result")
@@ -38,8 +38,7 @@ fork.
 _BEGIN = "import sys; sys.path[:] = sys.argv[1:]; from reportgen.base.process_limits import serve; serve()"
 
 
-@record
-class Limits:
+class Limits(Record):
     """Limits of one call: seconds, and megabytes beyond those that its process starts with."""
 
     seconds: float

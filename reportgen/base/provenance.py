@@ -10,13 +10,12 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Collection, Iterator, Mapping
-from dataclasses import field
 from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any
 
 from reportgen.base.files import contents, put_files, standing
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 
 MADE_OF = ("assignment", "engine", "language", "templates", "version")
 """Inputs that decide the bytes of every product; a product may add others, such as the questions of a sheet."""
@@ -29,8 +28,7 @@ LARGEST = 1_000_000
 """Bytes of a record."""
 
 
-@record
-class Made:
+class Made(Record):
     """Files of a folder by name, with the SHA-256 of their written contents, and the inputs they were made from."""
 
     made_of: MadeOf = field(default_factory=dict)
@@ -54,8 +52,7 @@ class Made:
                 yield folder / name
 
 
-@record
-class Put:
+class Put(Record):
     """Result of putting files into a folder: the `paths` written, the stale files `gone`, and the files `left`.
 
     Files that are left were changed after they were made, or are not in any record.

@@ -1,52 +1,75 @@
-"""Records: dataclasses with slots whose methods, except `__init__`, are the same functions for every class.
+"""Records: small classes of values that never change, made by msgspec.
 
-`dataclass(frozen=True, slots=True)` compiles six methods for each class.  A build makes 300 such classes, which then
-takes a twelfth of its processor time; a record takes a fifth of that.
+A build makes 300 such classes and very many of their objects.  `dataclass` compiles several methods for each class;
+msgspec has them ready, in C.  A class takes a tenth of the time, and comparing two records less than half.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+import dataclasses
+from abc import ABCMeta
+from collections.abc import Callable
 from operator import attrgetter
-from typing import Any, TypeVar, cast, dataclass_transform
+from typing import Any, TypeVar, dataclass_transform
 
-Record = TypeVar("Record")
+from msgspec import Struct, StructMeta, field, structs
+from msgspec.structs import asdict, astuple
 
-_VALUES = "_compared_values"
-"""Attribute of a record class: the function that returns the class of a record and its fields that are compared."""
+__all__ = ["AbstractRecord", "Record", "asdict", "astuple", "field", "field_names", "replace", "uncompared"]
+
+Item = TypeVar("Item")
+RecordType = TypeVar("RecordType", bound="type[Record]")
 
 
 @dataclass_transform(frozen_default=True, field_specifiers=(field,))
-def record(of: type[Record]) -> type[Record]:
-    """Make a class a dataclass with slots; equality, hash and text follow from its fields unless the class has its own.
+class _RecordType(StructMeta):
+    """The type of record classes, by which mypy knows that fields are set once."""
 
-    Its fields are set once, when a record is made: mypy reports any later assignment.  Python does not prevent it, as
-    `dataclass(frozen=True)` would, so that making a record is as fast as making any other object.
+
+class _AbstractRecordType(ABCMeta, _RecordType):
+    """The type of record classes with abstract methods."""
+
+
+class Record(Struct, metaclass=_RecordType, frozen=True):
+    """The base of classes whose annotations are fields, as those of a dataclass.
+
+    Fields are set once, when a record is made; it has no other attributes.  Records are equal, and have the same hash,
+    if they are of the same class and their fields are equal.
     """
-    made = dataclass(slots=True, eq=False, repr=False)(of)
-    names = (entry.name for entry in fields(cast(Any, made)) if entry.compare)
-    for name, member in {
-        _VALUES: attrgetter("__class__", *names),
-        "__eq__": _equal,
-        "__hash__": _hash,
-        "__repr__": _text,
-    }.items():
-        if name not in vars(of):
-            setattr(made, name, member)
-    return made
 
 
-def _equal(self: Any, compared: object) -> Any:
-    if compared.__class__ is not self.__class__:
-        return NotImplemented
-    values = getattr(self, _VALUES)
-    return values(self) == values(compared)
+def uncompared(*names: str) -> Callable[[RecordType], RecordType]:
+    """Leave fields out of the comparison of a record class: records that differ in these alone are equal."""
+
+    def changed(of: RecordType) -> RecordType:
+        values = attrgetter("__class__", *(name for name in of.__struct_fields__ if name not in names))
+
+        def equal(self: object, compared: object) -> bool:
+            return compared.__class__ is self.__class__ and values(self) == values(compared)
+
+        for name, method in {"__eq__": equal, "__hash__": lambda self: hash(values(self))}.items():
+            setattr(of, name, method)
+        return of
+
+    return changed
 
 
-def _hash(self: Any) -> int:
-    return hash(getattr(self, _VALUES)(self))
+class AbstractRecord(Record, metaclass=_AbstractRecordType):
+    """The base of record classes that leave methods to the classes derived from them."""
 
 
-def _text(self: Any) -> str:
-    texts = (f"{entry.name}={getattr(self, entry.name)!r}" for entry in fields(self) if entry.repr)
-    return f"{type(self).__qualname__}({', '.join(texts)})"
+def field_names(of: type) -> tuple[str, ...]:
+    """Return the names of the fields that are given when a record or a dataclass is made; other classes have none."""
+    if issubclass(of, Struct):
+        return of.__struct_fields__
+    return tuple(each.name for each in dataclasses.fields(of) if each.init) if dataclasses.is_dataclass(of) else ()
+
+
+def replace(item: Item, **changes: Any) -> Item:
+    """Return a record or a dataclass with other values of some fields, as `copy.replace` does from Python 3.13 on.
+
+    Raises `TypeError` for a name that is no field.
+    """
+    if isinstance(item, Struct):
+        return structs.replace(item, **changes)
+    return dataclasses.replace(item, **changes)  # type: ignore[type-var]

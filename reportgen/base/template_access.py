@@ -6,16 +6,16 @@ shows its entries.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from typing import Any, TypeVar
+
+from reportgen.base.records import field_names
 
 Registered = TypeVar("Registered", bound=type)
 
 MEMBERS: dict[type, frozenset[str]] = {}
 """Readable members of each type; `__str__` among them allows a value to be printed in a text by its name."""
 
-FIELDS = "__dataclass_fields__"
-"""Attribute in which a dataclass has its fields, by their names."""
 _ALL: dict[type, frozenset[str]] = {}
 """Cache of the members of types together with those of their bases."""
 
@@ -31,11 +31,10 @@ def template_members(*names: str) -> Callable[[Registered], Registered]:
 
 
 def view(*names: str) -> Callable[[Registered], Registered]:
-    """Register the fields of a dataclass that is made for templates, and further members."""
+    """Register the fields of a record or a dataclass that is made for templates, and further members."""
 
     def entered(of: Registered) -> Registered:
-        listed: Iterable[str] = getattr(of, FIELDS, ())
-        return template_members(*listed, *names)(of)
+        return template_members(*field_names(of), *names)(of)
 
     return entered
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from reportgen.base.languages import Language as Language
 from reportgen.base.languages import common_unit, decimal_mark
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members
 
 if TYPE_CHECKING:
@@ -123,8 +123,7 @@ _TOWER = re.compile(r"[0-9]{2}|[0-9²³⁴¹][\s)]*(?:\^|\*\s*\*|[²³⁴⁻¹])
 
 
 @template_members("si")
-@record
-class Given:
+class Given(Record):
     """A quantity as given: `si` is its value in SI units; `value`, `unit` and `text` are as typed."""
 
     si: float
@@ -354,8 +353,7 @@ MOST_DECIMALS = 8
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
-@record
-class PowerOfTen:
+class PowerOfTen(Record):
     """A number as `factor`·10^`exponent`, the factor with `decimals` (None: unchanged)."""
 
     factor: float

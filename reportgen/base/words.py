@@ -13,7 +13,6 @@ import os
 import re
 import unicodedata
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cache, lru_cache
 from hashlib import sha256
 from itertools import pairwise
@@ -23,7 +22,7 @@ from typing import Any
 from reportgen.base.atlas_words import machine_source, over_linkage
 from reportgen.base.errors import AssignmentError, Fault, Level, Location, Problem, TemplateError, Where
 from reportgen.base.placeholders import FILLS, filled, gaps, plain_gaps
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import (
     DEFAULT_LANGUAGE,
     MACHINES,
@@ -404,8 +403,7 @@ KEPT_FILES = 128
 """Largest number of cached files."""
 
 
-@record
-class Passage:
+class Passage(Record):
     """The template text of a section, which begins below its heading in line `line` of the file."""
 
     file: Path

@@ -11,7 +11,6 @@ import codecs
 import re
 import unicodedata
 from collections.abc import Callable, Iterator
-from dataclasses import field, replace
 from itertools import islice
 from operator import attrgetter
 from pathlib import Path
@@ -22,7 +21,7 @@ import yaml
 from reportgen.base import chinese, cyrillic
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace, uncompared
 from reportgen.base.typing_mistakes import misplaced, open_quote, slips_above
 
 ENCODINGS = {codecs.BOM_UTF8: "utf-8", codecs.BOM_UTF16_LE: "utf-16-le", codecs.BOM_UTF16_BE: "utf-16-be"}
@@ -70,8 +69,8 @@ Span = tuple[int, int]
 NOWHERE: Span = (-1, -1)
 
 
-@record
-class Scalar:
+@uncompared("span")
+class Scalar(Record):
     """A piece of text; `null` if nothing was written, `quoted` if it is in quotation marks.
 
     Like that of every node, `span` gives the characters of the source between which it was written.
@@ -81,7 +80,7 @@ class Scalar:
     location: Location
     null: bool = False
     quoted: bool = False
-    span: Span = field(default=NOWHERE, compare=False, repr=False)
+    span: Span = NOWHERE
 
 
 class Quoted(str):
@@ -90,20 +89,20 @@ class Quoted(str):
     __slots__ = ()
 
 
-@record
-class SequenceNode:
+@uncompared("span")
+class SequenceNode(Record):
     items: tuple[Node, ...]
     location: Location
-    span: Span = field(default=NOWHERE, compare=False, repr=False)
+    span: Span = NOWHERE
 
 
-@record
-class MappingNode:
+@uncompared("span")
+class MappingNode(Record):
     """A mapping: its entries in the order of the file, each key once."""
 
     entries: tuple[tuple[Scalar, Node], ...]
     location: Location
-    span: Span = field(default=NOWHERE, compare=False, repr=False)
+    span: Span = NOWHERE
 
     def find(self, key: object) -> tuple[Scalar, Node] | None:
         return next((entry for entry in self.entries if entry[0].text == key), None)
@@ -112,8 +111,7 @@ class MappingNode:
 Node = Scalar | SequenceNode | MappingNode
 
 
-@record
-class Source:
+class Source(Record):
     """A file as read: its top node (None if it could not be read) and the faults found while reading."""
 
     file: str

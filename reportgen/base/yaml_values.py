@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Sequence
-from dataclasses import replace
 
 from reportgen.base.errors import Where
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, plain, read_own
 
 WIDTH = 100

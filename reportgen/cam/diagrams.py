@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import replace
 from reportgen.base.units import MM, nice_up
 from reportgen.cam import cam_ids
 from reportgen.cam.ledger import HEIGHT, LEAST_POLE, TURN_ON_PAPER

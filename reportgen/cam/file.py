@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Literal
 
@@ -23,7 +23,7 @@ from reportgen.assignment.fields import (
     fault,
     quantity,
 )
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_access import view
 from reportgen.base.units import MM, Given
 from reportgen.cam import inverse_design
@@ -43,14 +43,12 @@ ALLOWED = 1e-9
 """A pressure angle may exceed its limit by this rounding error (rad)."""
 
 
-@record
-class PerPhase:
+class PerPhase(Record):
     """Number of steps of each phase."""
 
     counts: tuple[tuple[str, int], ...]
 
 
-@record
 class Steps(Reader):
     """Reader of the positions: a number per turn, a step in degrees, or a number for each phase."""
 

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.cam import formulas
 from reportgen.cam.formulas import valued

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from functools import cached_property, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
@@ -19,7 +20,7 @@ from reportgen.assignment import Assignment
 from reportgen.base.errors import DocumentError, NotOfferedError, TemplateError
 from reportgen.base.kinds import title as kind_title
 from reportgen.base.languages import UnitNames, languages, setting_of
-from reportgen.base.records import record
+from reportgen.base.records import Record, asdict, field, replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import common_words, load_words, word
 from reportgen.case.answer_key import INSTANT, Key, Span
@@ -43,8 +44,7 @@ if TYPE_CHECKING:
     from reportgen.machine.analysis import Analysis
 
 
-@record
-class Misconceptions:
+class Misconceptions(Record):
     """Common misconceptions about an assignment, which marking looks for.
 
     `applied` are the names of the given loads, `loads` those of all loads, each of which may be forgotten or reversed.
@@ -84,8 +84,7 @@ def with_another(families: Mapping[str, Family], instead: Mapping[str, Operand])
                 yield id, taken
 
 
-@record
-class DriverMotion:
+class DriverMotion(Record):
     """Motion of a driver through the positions of a cycle, at constant speed.
 
     `gone` [N] is its travel since the first position and `whole` its travel in a cycle (rad, or m if it `slides` and
@@ -102,8 +101,7 @@ class DriverMotion:
     signed: Mapping[str, tuple[np.ndarray, complex]] = field(default_factory=dict)
 
 
-@record
-class AskedFor:
+class AskedFor(Record):
     """Questions of a task for its templates."""
 
     answers: tuple[Block, ...]
@@ -315,7 +313,7 @@ def _called(make: Callable[..., Made], arguments: tuple[Any, ...]) -> Made:
 class LoadedAssignment(Case):
     """An assignment with its words, as a case of a single work."""
 
-    root: Path | None = field(default=None, kw_only=True, compare=False, repr=False)
+    root: Path | None = dataclass_field(default=None, kw_only=True, compare=False, repr=False)
     """The folder of its templates; None for the program's own."""
 
     def bounded(self, make: Callable[[Self], Made]) -> Made:

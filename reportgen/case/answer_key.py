@@ -6,14 +6,13 @@ Its rows come from the ledger, so that key, report and marking agree.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import cache, cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.units import Language
 from reportgen.base.words import common_words
@@ -40,8 +39,7 @@ class Role(StrEnum):
     scale = "scale"
 
 
-@record
-class KeyRow:
+class KeyRow(Record):
     """One quantity over the positions, in its printed unit.
 
     `values` [N] are unrounded, with the sign that is printed, and `printed` [N] are the report's rounded values; both
@@ -107,8 +105,7 @@ class KeyRow:
         return 0 if self.single else position - 1
 
 
-@dataclass(frozen=True)
-class Key:
+class Key(Record, dict=True):
     """The answer key of an assignment: all its rows.
 
     `labels` [N] are the names of the positions, `student` the fields of its student.  If there are very many positions,
@@ -180,8 +177,7 @@ class Key:
         return tuple(row for row in self.rows if row.positions)
 
 
-@record
-class PartOfKey:
+class PartOfKey(Record):
     """A part of a coursework: its `name` replaces the `head` at the beginning of its ids."""
 
     name: str
@@ -198,8 +194,7 @@ class PartOfKey:
         return self.name + id.removeprefix(self.head) if self.head and id else id
 
 
-@record
-class Span:
+class Span(Record):
     """Positions of a key: labels of those of the cycle, `count` in a turn.
 
     Positions in `worked` are calculated in full.  If there are very many positions, the document contains only those in

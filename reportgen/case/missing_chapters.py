@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from reportgen.base.errors import Where
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.words import find
 
 _HEADING = re.compile(r"^#+ +(.*)$", re.MULTILINE)
@@ -15,8 +15,7 @@ _OTHERWISE = re.compile(r"{% *else *%}.*?{% *endif *%}")
 _MARKS = re.compile(r"{%.*?%}|{{.*?}}")
 
 
-@record
-class MissingChapter:
+class MissingChapter(Record):
     """A chapter by its title, with the keys that it needs: one of each group in `wanted`."""
 
     title: str

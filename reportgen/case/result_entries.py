@@ -6,10 +6,9 @@ All values are in SI; points and forces are complex numbers x + iy.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.case.topic_results import RESULTS, Entries
 from reportgen.formula import ids
 from reportgen.machine import Crank
@@ -17,8 +16,7 @@ from reportgen.machine.analysis import Analysis
 from reportgen.machine.force_analysis import Load
 
 
-@record
-class ResultEntries:
+class ResultEntries(Record):
     """The entries of each position, None for one that the machine cannot reach, and the entries `besides` without a
     position.
     """

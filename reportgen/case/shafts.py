@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 
-@record
-class Shaft:
+class Shaft(Record):
     """A shaft: its name, its speed (rad/s) if it is known, and its sense, 1 or −1.
 
     A `fixed` sense counts as anticlockwise in the drawing of the machine, any other one only relative to the shafts of

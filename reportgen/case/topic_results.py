@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 from reportgen.machine.analysis import Analysis
 
@@ -21,8 +21,7 @@ def _nothing_besides(analysis: Analysis) -> Entries:
     return {}
 
 
-@record
-class ResultHooks:
+class ResultHooks(Record):
     """The results of a topic: those added to the entry of the position with index k, and those without a position."""
 
     at_position: Callable[[Analysis, int, dict[str, Any]], None] = _nothing_at

@@ -20,7 +20,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
@@ -46,6 +45,7 @@ from reportgen.base.errors import (
 )
 from reportgen.base.field_words import also, choice_words, field_words, remarked
 from reportgen.base.kinds import SAMPLE, kinds
+from reportgen.base.records import replace
 from reportgen.base.template_folders import (
     MOST_MACHINES,
     ignored_machine_files,

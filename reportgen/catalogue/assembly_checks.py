@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM, nice_down
 from reportgen.machine import GROUND, Crank, Dyad, Group, Guide, Linkage, Triad
 from reportgen.machine.kinematics import Motion, course_of, solve_motion
@@ -52,8 +51,7 @@ Clear = Callable[[Floats], Floats]
 """Function that returns a group's clearance [N] at driver coordinates [N]."""
 
 
-@record
-class Member:
+class Member(Record):
     """A group in messages: its links by their letters ("BC, CD"), and the key of the file that is at fault."""
 
     rods: str
@@ -64,8 +62,7 @@ Members = Mapping[Any, Member]
 """The groups in messages, by the tuples of their links."""
 
 
-@record
-class DriverTravel:
+class DriverTravel(Record):
     """The driver's coordinates to examine: a whole turn of a crank (rad), or the travel of a slider (m)."""
 
     start: float = 0.0

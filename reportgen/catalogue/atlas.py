@@ -7,7 +7,7 @@ when it changes.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from textwrap import wrap
 from typing import Annotated, Any, ClassVar
@@ -20,6 +20,7 @@ from reportgen.assignment.reading import placed, read_section
 from reportgen.base.atlas_words import machine_source, machine_words
 from reportgen.base.errors import Fault, Finding, Where
 from reportgen.base.field_words import FieldWords
+from reportgen.base.records import replace
 from reportgen.base.template_folders import ATLAS_BASE, atlas_files, is_machine_name, is_own_machine
 from reportgen.base.units import Given, Language
 from reportgen.base.words import as_error

@@ -11,7 +11,7 @@ import keyword
 import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Any
 
@@ -25,7 +25,7 @@ from reportgen.assignment.reading import model_of, placed, read_section
 from reportgen.assignment.schema import Schema, parameters_schema, places
 from reportgen.base.atlas_words import LONGEST_WORDS
 from reportgen.base.errors import Fault, Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import languages
 from reportgen.base.topics import topics
 from reportgen.base.typing_mistakes import in_quotes
@@ -46,7 +46,6 @@ _FRACTIONS = frozenset({"s", "height"})
 _SECTION = "linkage"
 
 
-@record
 class _Passage(Reader):
     """A text of some sentences, kept as one line."""
 
@@ -96,8 +95,7 @@ class MachineFile(Part):
     linkage: dict[str, Any]
 
 
-@record
-class Parameter:
+class Parameter(Record):
     """A parameter of a machine, with the reader of its values."""
 
     name: str
@@ -109,8 +107,7 @@ class Parameter:
         return self.default.unit
 
 
-@record
-class PlacedFormula:
+class PlacedFormula(Record):
     """A formula at a place of the linkage, and the unit of its value there; "" for a pure number."""
 
     where: Where

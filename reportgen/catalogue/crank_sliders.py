@@ -22,7 +22,7 @@ from functools import partial
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration
 from reportgen.formula import (
     Chain,
@@ -197,8 +197,7 @@ def _joint_of_second_rod(q: Calculation, turn: int, joint: str) -> None:
 # --- with an offset ---------------------------------------------------------------------------------
 
 
-@record
-class OffsetSlider:
+class OffsetSlider(Record):
     """Crank r and rod l (m), offset e (m, along y), the guide's direction `axis` (rad) and the rotation `turn` = ±1."""
 
     r: float

@@ -34,7 +34,7 @@ from reportgen.assignment.fields import (
 )
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.base.units import Given
 from reportgen.catalogue.typed_quantities import as_typed, size_of
@@ -51,7 +51,6 @@ LEVEL = Given(0.0, 0.0, "deg", "0 deg")
 _NAME = re.compile(r"[A-OR-Z][0-9]{0,2}|[PQ][0-9]{1,2}")
 
 
-@record
 class PointName(Reader):
     """A capital letter and at most two digits; P and Q alone are letters of the plans."""
 
@@ -295,8 +294,7 @@ def against(size: float, rate: Callable[[Motion], Floats], motion_at: MotionAt, 
 
 
 @view("phrase", "table")
-@record
-class LoadRow:
+class LoadRow(Record):
     """A load for templates: its link, form, place and direction, and its size or table."""
 
     id: str

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from reportgen.assignment.common import Assignment
+from reportgen.base.records import replace
 from reportgen.catalogue import declared_loads
 from reportgen.catalogue.given_data import GivenData
 from reportgen.catalogue.topic_sections import Opening, chapters, entered

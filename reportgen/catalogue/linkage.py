@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -17,6 +16,7 @@ from reportgen.assignment.checks import one_of
 from reportgen.assignment.common import ROMAN, Assignment, Draft, Positions
 from reportgen.base.arrays import Floats
 from reportgen.base.errors import Finding
+from reportgen.base.records import replace
 from reportgen.base.units import nice_up
 from reportgen.catalogue import assembly_checks, declared_loads, linkage_checks
 from reportgen.catalogue import linkage_file as file

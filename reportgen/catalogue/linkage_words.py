@@ -6,7 +6,7 @@ from collections.abc import Container, Iterator
 from functools import partial
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.catalogue import linkage_file as file
 from reportgen.catalogue.declared_loads import LoadRow, row_of
@@ -16,8 +16,7 @@ from reportgen.machine import Guide
 
 
 @view("drawing")
-@record
-class GroupRow:
+class GroupRow(Record):
     """A group: its links, kind, joints and the lengths of its rods, each with its ends."""
 
     links: tuple[int, ...]
@@ -39,8 +38,7 @@ class GroupRow:
         return "RPR-offset" if self.offset else self.kind
 
 
-@record
-class GuideRow:
+class GuideRow(Record):
     """A guide: the link that slides, the link that carries it, a point of it, its direction."""
 
     slider: int
@@ -50,8 +48,7 @@ class GuideRow:
     angle: Number
 
 
-@record
-class PointRow:
+class PointRow(Record):
     """A point of a link by its distances from a joint.
 
     `way` is the joint towards which the axis points, or "guide" or "slot" for the line to which it is parallel.
@@ -66,8 +63,7 @@ class PointRow:
 
 
 @view()
-@record
-class MotionRow:
+class MotionRow(Record):
     """Motion of a link: "rotation" about a fixed point, "translation" along a fixed guide, "shift" without
     rotation, or "plane" motion.
 

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Protocol
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.catalogue.vector_components import STILL, VectorComponents, add, along, less, scaled, turned, typed
 from reportgen.formula import NOTHING, Expression, Number, Ref, Symbol, minus, square
 from reportgen.formula.calculation import Calculation
 
 
-@record
-class Moving:
+class Moving(Record):
     """A point: its coordinates, its velocity and its acceleration by components."""
 
     p: VectorComponents
@@ -19,8 +18,7 @@ class Moving:
     a: VectorComponents = STILL
 
 
-@record
-class LoopBody:
+class LoopBody(Record):
     """A link: the origin of its frame by name and motion, the frame's angle, ω and ε."""
 
     start: str
@@ -45,8 +43,7 @@ class LoopBody:
 FRAME = LoopBody("", Moving(STILL), Number(0.0, unit="°"))
 
 
-@record
-class LoopRail:
+class LoopRail(Record):
     """A guide: a point of its line, its angle, the link that has it."""
 
     at: VectorComponents
@@ -66,8 +63,7 @@ class LoopIteration(Protocol):
         ...
 
 
-@record
-class LoopLine:
+class LoopLine(Record):
     """A quantity with its formula, and the name of the part of the equations to which it belongs."""
 
     id: str

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
+from reportgen.base.records import replace
 from reportgen.catalogue.given_data import natural_sizes
 from reportgen.catalogue.loop_bodies import FRAME, LoopBody, LoopIteration, LoopLine, LoopRail, Moving
 from reportgen.catalogue.vector_components import STILL, VectorComponents, add, along, degrees, scaled, typed

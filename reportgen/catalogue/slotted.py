@@ -14,7 +14,7 @@ import math
 from collections.abc import Sequence
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.catalogue.given_data import accelerated, accelerating, driver_acceleration, natural_lines
 from reportgen.formula import (
     NOTHING,
@@ -50,8 +50,7 @@ HIGHEST = 0.165
 STRAIGHT, TURN = Number(180.0, unit="°"), Number(360.0, unit="°")
 
 
-@record
-class SlottedCrank:
+class SlottedCrank(Record):
     """Crank r about A, lever about C at the distance d below A (m); `axis` is the direction from C to A (rad)."""
 
     r: float
@@ -102,8 +101,7 @@ def drawn_crank(crank: float, height: float) -> float:
     return next((drawn for drawn in DRAWN_CRANKS if drawn * height / crank <= HIGHEST), DRAWN_CRANKS[-1])
 
 
-@record
-class Ram:
+class Ram(Record):
     """The lever's crank, and the lengths (m) of the lever and of the link, and the height of the ram's line over C."""
 
     crank: SlottedCrank

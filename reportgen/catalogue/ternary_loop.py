@@ -20,7 +20,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.catalogue import ternary_ids
 from reportgen.catalogue.loop_bodies import LoopBody, Moving
 from reportgen.catalogue.loop_builder import LoopBuilder
@@ -61,8 +61,7 @@ Beside a dead point two assemblies are less than a degree apart. The last readin
 """
 
 
-@record
-class LegLoop:
+class LegLoop(Record):
     """The loop over the first leg, the ternary link and another `leg`, for any angles of these links.
 
     `u` and `w` are the coordinates of the leg's joint on the ternary link.
@@ -111,8 +110,7 @@ def cramer(rows: Sequence[VectorComponents], right: VectorComponents) -> VectorC
 # --- positions ------------------------------------------------------------------------------------
 
 
-@record
-class AngleIteration:
+class AngleIteration(Record):
     """Newton's iteration for the angles of the first leg and of the ternary link.
 
     It starts from both angles as they are read from the drawing: to a degree, more finely at positions beside a dead
@@ -210,8 +208,7 @@ class AngleIteration:
         ]
 
 
-@record
-class _Step:
+class _Step(Record):
     """A step of the iteration: the `number` of steps before it, which its symbols have, e.g. φ₂⁽¹⁾."""
 
     q: Calculation

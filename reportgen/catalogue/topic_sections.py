@@ -7,7 +7,6 @@ and the form show all.  A topic has its `TopicSection` as `HOOKS` in its module 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
 from functools import cache
 from typing import Any, ClassVar, Literal, TypeVar
 
@@ -15,7 +14,7 @@ from pydantic import create_model
 
 from reportgen.assignment.common import Check, Draft, Part
 from reportgen.base.errors import Finding
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.base.topics import TOPIC_MODULE, HookModule
 from reportgen.base.units import Given
 from reportgen.formula import Ref, Symbol
@@ -73,8 +72,7 @@ class TopicParameters(Part):
         return False
 
 
-@record
-class Opening:
+class Opening(Record):
     """The data that a topic can use to enter its own while the calculation of a machine is started."""
 
     given: TopicParameters
@@ -87,8 +85,7 @@ class Opening:
     """Values provided by earlier topics, by the names of the shared results."""
 
 
-@record
-class TopicData:
+class TopicData(Record):
     """Result of reading a topic's section: the subject that the machine then has, and loads that act on it."""
 
     subject: object = None
@@ -130,8 +127,7 @@ def _no_checks(parameters: type[TopicParameters]) -> tuple[Check, ...]:
     return ()
 
 
-@record
-class TopicSection:
+class TopicSection(Record):
     """The section of a topic in the file of a machine, and its chapter in the report.
 
     `annotation` and `default` are those of the field of the parameters.  Topics enter their data, and their chapters of
@@ -221,8 +217,7 @@ def topic_checks(model: type[Part], names: tuple[str, ...]) -> tuple[Check, ...]
     return tuple(check for section in sections_of(names) for check in section.checks(model))
 
 
-@record
-class EnteredTopics:
+class EnteredTopics(Record):
     """The topics of a machine, once their data are entered."""
 
     subjects: Mapping[str, object] = field(default_factory=dict)

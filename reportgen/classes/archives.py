@@ -19,7 +19,7 @@ from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.workbook.table_writing import MOMENT
 from reportgen.workbook.zip_package import MOST_RATIO, SMALL, UNREADABLE_ZIP, RefusedError
 
@@ -41,16 +41,14 @@ CountStudents = Callable[[Sequence[str]], int]
 """Returns how many of the given names are those of students."""
 
 
-@record
-class ArchiveMember:
+class ArchiveMember(Record):
     """A file in an archive, with its decoded name."""
 
     name: str
     info: zipfile.ZipInfo
 
 
-@record
-class Archive:
+class Archive(Record):
     """An opened archive that passed the safety checks."""
 
     members: tuple[ArchiveMember, ...]

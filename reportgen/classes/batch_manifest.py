@@ -10,17 +10,16 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import field
 from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pydantic import TypeAdapter, ValidationError
+import msgspec
 
 from reportgen.base.files import contents, put_file
 from reportgen.base.provenance import MADE_OF, Made, hash_of
 from reportgen.base.provenance import made_of as made_of_input
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.classes.worker_pool import Job, Outcome
 
 if TYPE_CHECKING:
@@ -35,8 +34,7 @@ STANDARDS = "standards"
 """Name of the input for the standards of a PDF, if they are not the default."""
 
 
-@record
-class ManifestEntry:
+class ManifestEntry(Record):
     """One product of one student: its inputs, and its files with their SHA-256, or the problems that made it fail."""
 
     student: str
@@ -62,9 +60,6 @@ class ManifestEntry:
     def edited(self, out: Path) -> Iterator[Path]:
         """Yield the files that were changed since they were made, for example a filled answer sheet."""
         return self.made.edited(out / self.folder)
-
-
-_ENTRY = TypeAdapter(ManifestEntry)
 
 
 def entry_of(job: Job, outcome: Outcome) -> ManifestEntry:
@@ -140,8 +135,8 @@ def _entry(line: dict[str, Any]) -> ManifestEntry | None:
     """Return the entry of a line, or None if the line does not have the form that `journal` writes."""
     made = {key: line.get(key) for key in (*MADE_OF, *(name for name in (ASK, STANDARDS) if name in line))}
     try:
-        entry = _ENTRY.validate_python({**line, "made_of": made})
-    except ValidationError:
+        entry = msgspec.convert({**line, "made_of": made}, ManifestEntry)
+    except msgspec.ValidationError:
         return None
     return entry if all(Path(name).name == name for name in entry.files) else None
 

@@ -9,7 +9,7 @@ import errno
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import ExitStack, closing, contextmanager, suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TextIO
@@ -21,7 +21,7 @@ from reportgen.assignment.reading import inputs
 from reportgen.base.errors import Fault, Location, OutputError, Problem
 from reportgen.base.files import cause, held, put_set, remove_unfinished, reported, scratch
 from reportgen.base.pdf_standards import STANDARDS, Standards, other_than_usual
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language, write
 from reportgen.base.words import as_problem, counted, spoken, word
 from reportgen.classes import preload
@@ -46,8 +46,7 @@ Watch = Callable[[str, str, Event], None]
 """Receives the student's folder, the product and the event; no names, no content."""
 
 
-@record
-class Order:
+class Order(Record):
     """The request of a batch: assignments drawn from `spec` into `out`, or found in `assignments`; exactly one of both.
 
     `jobs` is the number of local processes (0: one for each core), unless `cluster` gives a scheduler's address. `ask`
@@ -69,8 +68,7 @@ class Order:
     standards: Standards = STANDARDS
 
 
-@record
-class Failure:
+class Failure(Record):
     """A product that could not be made; its problems name the file by a path that can be opened from here."""
 
     student: str

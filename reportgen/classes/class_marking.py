@@ -6,13 +6,14 @@ An unreadable sheet never stops the others, and no student's data are written in
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Problem, ReportgenError
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -53,9 +54,9 @@ class Classroom:
     files: Mapping[str, Path]
     policy: Policy
     language: Language | None
-    people: Mapping[str, RosterEntry] = field(default_factory=dict)
+    people: Mapping[str, RosterEntry] = dataclass_field(default_factory=dict)
     """Roster entries of the students, by the stem of their files."""
-    opened: dict[str, MarkingScheme] = field(default_factory=dict)
+    opened: dict[str, MarkingScheme] = dataclass_field(default_factory=dict)
 
     def scheme(self, name: str) -> MarkingScheme:
         """Return the marking scheme of an assignment; raise `KeyError` for an unknown name."""
@@ -106,8 +107,7 @@ class Classroom:
         return tuple(name_words(key.student.get("name", "")) for key in self.keys)
 
 
-@record
-class Graded:
+class Graded(Record):
     """The result of marking a class: markings by assignment, all problems, and the students without marks.
 
     `owners` are those who submitted the sheets, by assignment, if these come from a learning platform. `known` is what

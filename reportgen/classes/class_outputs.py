@@ -8,7 +8,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
 from itertools import groupby, islice
 from pathlib import Path
 
@@ -19,6 +18,7 @@ from reportgen.base.files import overwritten, put_files, reported, scratch
 from reportgen.base.kinds import title
 from reportgen.base.output_formats import file_names
 from reportgen.base.pdf_standards import STANDARDS, Standards
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem, counted, word
 from reportgen.case.answer_key import Key

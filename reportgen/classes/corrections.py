@@ -12,21 +12,20 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
 from fnmatch import fnmatchcase
 from functools import cache
 from pathlib import Path
 
 from reportgen.base.chinese import narrow
 from reportgen.base.errors import Fault, Location, Problem
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import languages
 from reportgen.base.timestamps import moment
 from reportgen.base.typed_characters import plain_signs
 from reportgen.base.units import NUMBER, Language, write
 from reportgen.base.words import as_error, as_problem, close_or_known, common_words, messages, word
 from reportgen.case.answer_key import Key, headed_chapters
-from reportgen.classes.roster import Record, columns, comparable, folded, folder_name, heading_row, records
+from reportgen.classes.roster import RosterRow, columns, comparable, folded, folder_name, heading_row, records
 from reportgen.document import InlineMath, Inlines, Text
 from reportgen.formula.vocabulary import KeyChapter
 from reportgen.marking.marking_data import Amendment, Marked, Marking, Verdict, points_of
@@ -39,8 +38,7 @@ SIGNED, DATED = "judged_by", "judged_on"
 """Optional columns for the person and the date of a correction."""
 
 
-@record
-class Correction:
+class Correction(Record):
     """A row: student, quantity and position as typed.
 
     `judgement` is right, wrong or a number of points; `locations` are those of its cells.
@@ -83,7 +81,7 @@ def read_corrections(path: Path, language: Language | None = None) -> tuple[Corr
     raise as_error([Fault("correction-column", Location(str(path)), {"key": "reason"})], language)
 
 
-def _correction(row: Record, who: str, faults: list[Fault]) -> Correction | None:
+def _correction(row: RosterRow, who: str, faults: list[Fault]) -> Correction | None:
     texts = {name: " ".join(value.text.split()) for name, value in row.values.items()}
     lacking = [name for name in (who, *NEEDED) if not texts.get(name) and name not in row.refused]
     faults += [Fault("correction-lacks", row.cells.get(name, row.location), {"key": name}) for name in lacking]

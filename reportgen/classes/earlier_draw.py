@@ -6,11 +6,10 @@ Both are needed permanently: the others keep their variants only while the first
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import field, replace
 from pathlib import Path
 
 from reportgen.base.errors import Location, UnknownNameError
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.base.units import Language
 from reportgen.base.words import unknown
 from reportgen.classes.roster import Roster, RosterEntry, comparable
@@ -21,8 +20,7 @@ REDRAWN, DROPPED = "redrawn", "dropped"
 MARKED = "x"
 
 
-@record
-class EarlierDraw:
+class EarlierDraw(Record):
     """The students of an earlier table in its order, by `comparable` id, with the numbers and marks of its columns."""
 
     students: Mapping[str, RosterEntry] = field(default_factory=dict)

@@ -16,7 +16,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
@@ -38,8 +38,7 @@ _PARTICIPANT = re.compile(r"\D+(\d+)")
 _TITLE = re.compile(r"(.+?)\s*\((\d+)\)")
 
 
-@record
-class Participant:
+class Participant(Record):
     """A student's identification in a platform's table: ids, and the platform's number, "" if unknown.
 
     `name` is the full name, "" if it is unknown or several students of the class have it.
@@ -51,8 +50,7 @@ class Participant:
     name: str = ""
 
 
-@record
-class StudentResult:
+class StudentResult(Record):
     """The result of one student: the `mark` as a share of the highest one, and a comment in lines."""
 
     student: Participant
@@ -60,8 +58,7 @@ class StudentResult:
     comment: Sequence[str] = ()
 
 
-@record
-class _Cell:
+class _Cell(Record):
     """A cell of the file: its start and end in the text, its content, and whether it is quoted."""
 
     start: int
@@ -70,8 +67,7 @@ class _Cell:
     quoted: bool
 
 
-@record
-class _Row:
+class _Row(Record):
     """A student's row: the cell of the grade, the platform's number, and the other texts that identify the student.
 
     `handed_in` is the submission time as the platform writes it, `comment` the cell that the student reads.
@@ -90,8 +86,7 @@ class _Row:
         return bool(student.number and student.number == self.number) or bool(self.names & student.ids)
 
 
-@record
-class _Table:
+class _Table(Record):
     """The table's students and the maximum grade, as the table writes it.
 
     `called` is the word before the number of each student, in lower case.
@@ -102,8 +97,7 @@ class _Table:
     called: str = ""
 
 
-@record
-class Gradebook:
+class Gradebook(Record):
     """A platform's table: its text after the byte order mark `bom`, its encoding, and the cells for its grades."""
 
     path: Path

@@ -9,7 +9,7 @@ import datetime
 from collections.abc import Mapping
 
 from reportgen.base.errors import Fault, Location, Problem
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.timestamps import moment
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
@@ -21,8 +21,7 @@ NONE = frozenset({"", "-", "–"})
 """Texts that mean a missing date."""
 
 
-@record
-class Handing:
+class Handing(Record):
     """Submission data of a sheet: the roster's date, and whether the platform calls it late."""
 
     student: Participant

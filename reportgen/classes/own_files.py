@@ -7,12 +7,12 @@ exactly one student of the class in its text.
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location, Problem
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -29,8 +29,7 @@ from reportgen.marking.marking_data import Submission
 from reportgen.marking.marking_policy import Twice
 
 
-@record
-class OwnWork:
+class OwnWork(Record):
     """A student's own files, each with what was read from it."""
 
     files: tuple[tuple[Handed, FileReading], ...]
@@ -57,8 +56,7 @@ class OwnWorks:
         self.problems += problems
 
 
-@record
-class SearchTargets:
+class SearchTargets(Record):
     """Functions that return what to search for in a student's files, by the key.
 
     `asked` gives the requested cells, with the symbols of the papers. `plans` gives the plans of a drawing, including

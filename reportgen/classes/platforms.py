@@ -13,13 +13,12 @@ import time
 import unicodedata
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import field, replace
 from functools import cache
 from pathlib import Path, PurePosixPath
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import leads_out
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace, uncompared
 from reportgen.base.template_folders import languages
 from reportgen.base.words import messages
 from reportgen.classes.archives import ARCHIVE, LARGEST_INSIDE, opened
@@ -43,8 +42,8 @@ _LOST = "?_\ufffd"
 _CANVAS_BLIND = re.compile(r"(?P<prefix>(?P<late>LATE_)?anon_(?P<number>[A-Za-z0-9]+)_\d+_).+")
 
 
-@record
-class Owner:
+@uncompared("late")
+class Owner(Record):
     """The submitter of a file according to the platform: its own number, and a name ("" if it is hidden).
 
     `prefix` begins the names of returned files: a folder, or the beginning of a file's name. `late` is True if the
@@ -54,7 +53,7 @@ class Owner:
     number: str
     name: str
     prefix: str
-    late: bool = field(default=False, compare=False)
+    late: bool = False
 
     def may_be(self, name: str) -> bool:
         """Return True if this can be the student of that name, ignoring the order of names, case and accents."""
@@ -70,8 +69,7 @@ class Owner:
         return folded(self.name.rpartition("-")[2]) in _hidden_names()
 
 
-@record
-class Handed:
+class Handed(Record):
     """A file that may be a sheet: `path` names it, `data` is its content if it comes from an archive.
 
     `when` is the year, month, day, hour, minute and second of its last change. A submission without a sheet has the

@@ -15,7 +15,6 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -28,7 +27,7 @@ from reportgen.base import chinese
 from reportgen.base.errors import Fault, Location, Problem
 from reportgen.base.files import contents
 from reportgen.base.kinds import kinds, program_kinds
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import languages
 from reportgen.base.units import NUMBER, UNIT, Language
 from reportgen.base.words import as_error, as_problem, close_or_known, messages
@@ -42,8 +41,7 @@ _WITH_UNIT = re.compile(rf"(.*?)\s*[(\[（]\s*({UNIT})\s*[)\]）]")
 _NUMBER = re.compile(NUMBER)
 
 
-@record
-class RosterColumn:
+class RosterColumn(Record):
     """A heading: `name` is a known column or the typed text, `unit` the text in brackets after it."""
 
     index: int
@@ -52,8 +50,7 @@ class RosterColumn:
     location: Location
 
 
-@record
-class Record:
+class RosterRow(Record):
     """A row: the value under each heading, without empty cells; `location` is that of its first cell.
 
     `cells` are the locations of all its cells, `refused` the columns whose cell shows no value.
@@ -100,7 +97,7 @@ def heading_row(page: Page, wanted: str) -> int | None:
     return next((k for k, row in rows if any(column.name == wanted for column in columns(row))), None)
 
 
-def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: list[Fault]) -> Iterator[Record]:
+def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: list[Fault]) -> Iterator[RosterRow]:
     """Yield the non-empty rows from index `start`.
 
     Faults are added for repeated headings and for cells that show no value.
@@ -128,7 +125,7 @@ def records(page: Page, headings: Sequence[RosterColumn], start: int, faults: li
         first = next((cell for cell in row if not cell.blank), None)
         if first is not None:
             cells = {column.name: cell.location for column, cell in present}
-            yield Record(values, first.location, cells, frozenset(refused))
+            yield RosterRow(values, first.location, cells, frozenset(refused))
 
 
 CANVAS_ID = "SIS User ID"
@@ -148,8 +145,7 @@ _ORDINARY = re.compile(rf"[A-Z0-9][A-Z0-9_-]{{0,{LONGEST_NAME - 1}}}")
 _LIKE_HASHED = re.compile(rf".*-[0-9A-F]{{{HASH_DIGITS}}}")
 
 
-@record
-class RosterEntry:
+class RosterEntry(Record):
     """A row of the roster.
 
     `card` is its data of the student, by the keys of `report.student`. `overrides` are values with their cells by path
@@ -176,8 +172,7 @@ class RosterEntry:
         return folder_name(self.id)
 
 
-@record
-class Roster:
+class Roster(Record):
     """The students in the order of the table; `columns` are the headings of values they override."""
 
     students: tuple[RosterEntry, ...]
@@ -227,11 +222,11 @@ def read_roster(path: Path, language: Language | None = None) -> Roster:
     return Roster(tuple(map(_student, rows)), overriding, tuple(notes))
 
 
-def _identified(rows: Sequence[Record]) -> list[Record]:
+def _identified(rows: Sequence[RosterRow]) -> list[RosterRow]:
     """Return the rows with ids: the local part of each e-mail, or the whole e-mail if two share a local part."""
     mails = [row.values.get("email") for row in rows]
     counts = Counter(comparable(mail.text.partition("@")[0]) for mail in mails if mail is not None)
-    identified: list[Record] = []
+    identified: list[RosterRow] = []
     for row, mail in zip(rows, mails, strict=True):
         if mail is None:
             identified.append(row)
@@ -242,15 +237,15 @@ def _identified(rows: Sequence[Record]) -> list[Record]:
     return identified
 
 
-def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
+def _students_rows(rows: Sequence[RosterRow]) -> tuple[list[RosterRow], list[RosterRow]]:
     """Return the rows of students, and the others: rows without id and name, or separate ones below the table.
 
     Below the table, after an empty row, are the date, the author of the list and signatures: names without ids.
     """
     last = max((number for number, row in enumerate(rows) if "id" in row.values or row.refused), default=len(rows))
     apart = False
-    students: list[Record] = []
-    left_out: list[Record] = []
+    students: list[RosterRow] = []
+    left_out: list[RosterRow] = []
     for number, row in enumerate(rows):
         apart |= number > last and row.location.line > rows[number - 1].location.line + 1
         named = any(name in row.values for name in ("name", *NAME_PARTS))
@@ -259,12 +254,12 @@ def _students_rows(rows: Sequence[Record]) -> tuple[list[Record], list[Record]]:
     return students, left_out
 
 
-def _quoted(row: Record) -> str:
+def _quoted(row: RosterRow) -> str:
     """Return the content of a row for quoting."""
     return " ".join(value.text for value in row.values.values())
 
 
-def _in_spoken_order(row: Record) -> Record:
+def _in_spoken_order(row: RosterRow) -> RosterRow:
     """Return a row of Canvas, which writes "An, Nguyễn Văn", with the name in spoken order."""
     name = row.values.get("name")
     if name is None or name.text.count(", ") != 1:
@@ -315,7 +310,7 @@ def _normal(column: RosterColumn, faults: list[Fault]) -> RosterColumn:
     return RosterColumn(column.index, "", "", column.location)
 
 
-def _unfit(row: Record) -> Iterable[Fault]:
+def _unfit(row: RosterRow) -> Iterable[Fault]:
     """Yield faults of personal data that are not valid in an assignment file."""
     for name in (*PERSONAL, *NAME_PARTS):
         if name in row.values:
@@ -326,7 +321,7 @@ def _unfit(row: Record) -> Iterable[Fault]:
                 yield Fault(context.pop("code"), row.values[name].location, context)
 
 
-def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
+def _id_faults(rows: Iterable[RosterRow]) -> Iterable[Fault]:
     """Yield faults of ids that are missing, or that differ from an earlier one only in case and composition."""
     seen: dict[str, Location] = {}
     for row in rows:
@@ -342,7 +337,7 @@ def _id_faults(rows: Iterable[Record]) -> Iterable[Fault]:
             )
 
 
-def _student(row: Record) -> RosterEntry:
+def _student(row: RosterRow) -> RosterEntry:
     parts = (value.text for name, value in row.values.items() if name in NAME_PARTS)
     texts = {"name": chinese.full_name(*parts), **{name: value.text for name, value in row.values.items()}}
     texts["name"] = chinese.joined(texts["name"])

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from dataclasses import field
 from functools import partial
 from pathlib import Path
 
 from reportgen.base.errors import AssignmentError, Fault, Location, Problem
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.case.answer_key import Key
@@ -24,8 +23,7 @@ from reportgen.marking.marking_data import Submission
 from reportgen.marking.marking_policy import Twice
 
 
-@record
-class Refused:
+class Refused(Record):
     """A file that is not marked, with the reasons."""
 
     handed: Handed
@@ -37,8 +35,7 @@ class Refused:
         return tuple(f"{self.handed.path.name}: {one.message}" for one in self.problems)
 
 
-@record
-class Collected:
+class Collected(Record):
     """The sheets to mark with their files, by assignment; the files that are not marked, and all problems."""
 
     sheets: Mapping[str, tuple[Submission, Handed]]

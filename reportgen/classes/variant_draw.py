@@ -28,7 +28,7 @@ from itertools import chain
 from reportgen import catalogue
 from reportgen.assignment.common import PARTS
 from reportgen.base.errors import Fault
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.yaml_values import path_text
 from reportgen.cases import opened
 from reportgen.classes.roster import Roster, RosterEntry, comparable
@@ -45,8 +45,7 @@ Combination = tuple[int, ...]
 Key = frozenset[tuple[str, str]]
 
 
-@record
-class DrawnVariant:
+class DrawnVariant(Record):
     """A student's values: those of the drawn combination, overridden by those of the roster."""
 
     student: RosterEntry

@@ -25,7 +25,6 @@ import hashlib
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
 from decimal import Decimal
 from pathlib import Path
 
@@ -37,7 +36,7 @@ from reportgen.assignment.schema import allowed_forms, known_keys
 from reportgen.base.errors import Fault, Location, Where
 from reportgen.base.files import contents, leads_out
 from reportgen.base.kinds import kinds
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.units import NUMBER, Language, QuantityFault, read_number, read_quantity, read_unit
 from reportgen.base.words import as_error, close_or_known, language_of
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, read_source
@@ -56,24 +55,21 @@ Settings = Mapping[Where, Scalar]
 """Values by their places in the assignment."""
 
 
-@record
-class Choice:
+class Choice(Record):
     """One of the values of an axis, or one row of the table of variants."""
 
     text: str
     settings: Settings
 
 
-@record
-class DrawnParameter:
+class DrawnParameter(Record):
     """An axis that is drawn independently: its path ("parameters.H", or "variants") and its choices."""
 
     name: str
     choices: tuple[Choice, ...]
 
 
-@record
-class Spec:
+class Spec(Record):
     """A valid spec: every choice can be parsed as its type; not every combination need turn.
 
     `digest` is the SHA-256 of its text and its table.

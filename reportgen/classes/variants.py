@@ -28,7 +28,7 @@ from reportgen.assignment.reading import doubtful, words_beside
 from reportgen.base.errors import Fault, Location, Where
 from reportgen.base.files import contents, overwritten, put_file, put_set, version
 from reportgen.base.process_limits import Limits
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, as_problem, word
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, Source, read_source
@@ -117,8 +117,7 @@ class Effort(NamedTuple):
     zeros: int
 
 
-@record
-class Spread:
+class Spread(Record):
     """One figure over the class; `outliers` are the indices of variants out of proportion."""
 
     name: str
@@ -128,8 +127,7 @@ class Spread:
     outliers: tuple[int, ...]
 
 
-@record
-class Variants:
+class Variants(Record):
     """The result: the files in the order of the roster, remarks, and a summary of the variants' difficulty, as text."""
 
     files: tuple[StudentFile, ...]

@@ -19,7 +19,6 @@ from collections import deque
 from collections.abc import Callable, Collection, Generator, Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, wait
 from contextlib import contextmanager
-from dataclasses import field
 from multiprocessing.process import BaseProcess, parent_process
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -32,7 +31,7 @@ from reportgen.base.errors import AssignmentError, OutputWarning, Problem, Repor
 from reportgen.base.files import version
 from reportgen.base.process_limits import ONE_THREAD, Limits, limit_memory
 from reportgen.base.provenance import assignment_hash
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import speak, spoken, templates_hash, unexpected, word
@@ -46,8 +45,7 @@ SYSTEM = 3
 """Exit code of a failure that no change of the assignment can fix."""
 
 
-@record
-class Making:
+class Making(Record):
     """The inputs of a result besides the assignment.
 
     `version` is that of this package, `templates` a SHA-256 of all words and frames. `language` is None to use each
@@ -63,8 +61,7 @@ class Making:
     standards: str = ""
 
 
-@record
-class Job:
+class Job(Record):
     """One product of one student: `content` is the assignment file, `file` its name, `folder` that of the results."""
 
     student: str
@@ -85,8 +82,7 @@ class Job:
         return assignment_hash(self.content, self.beside)
 
 
-@record
-class Outcome:
+class Outcome(Record):
     """The files of a product by name; or, with an exit code other than 0, the problems that prevented them.
 
     Locations of `problems` name the assignment file without its folder.

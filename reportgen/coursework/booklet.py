@@ -7,10 +7,11 @@ Each report is a finished document tree.  A section that begins the task, symbol
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import dropwhile
 from typing import Any
 
+from reportgen.base.records import replace
 from reportgen.case.quantity_wording import sentence
 from reportgen.coursework.symbol_renaming import changed
 from reportgen.document import (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, takewhile
 from typing import Any, Self
@@ -13,6 +13,7 @@ from typing import Any, Self
 import numpy as np
 
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, LengthOfPart, TakenDatum
+from reportgen.base.records import replace
 from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.case.answer_key import Key, PartOfKey, Span, capitalised
 from reportgen.case.missing_chapters import MissingChapter

@@ -1,15 +1,15 @@
 """Give each letter one meaning: a symbol of a part that an earlier part uses for something else gets an index.
 
-A part's documents, key, animation and drawing sheets are trees of frozen dataclasses that use the same type of symbol,
-so `relettered` works for all of them.
+A part's documents, key, animation and drawing sheets are trees of records that use the same type of symbol, so
+`relettered` works for all of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar, cast
 
+from reportgen.base.records import field_names, replace
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.label_replacement import respelled
 from reportgen.formula import Symbol
@@ -20,7 +20,7 @@ Letters = Mapping[Symbol, Symbol]
 
 
 def changed(tree: Tree, kind: type | tuple[type, ...], change: Callable[[Any], Any]) -> Tree:
-    """Return a tree of dataclasses, tuples and mappings with `change` applied to each node of a kind.
+    """Return a tree of records, dataclasses, tuples and mappings with `change` applied to each node of a kind.
 
     Subtrees without such a node stay the same objects.
     """
@@ -39,12 +39,9 @@ def _changed(node: Any, kind: type | tuple[type, ...], change: Callable[[Any], A
     if isinstance(node, dict):
         table = {key: _changed(value, kind, change) for key, value in node.items()}
         return table if any(table[key] is not node[key] for key in node) else node
-    if is_dataclass(node) and not isinstance(node, type):
-        held = {field.name: getattr(node, field.name) for field in fields(node) if field.init}
-        new = {name: _changed(value, kind, change) for name, value in held.items()}
-        changed_fields = {name: value for name, value in new.items() if value is not held[name]}
-        return replace(node, **changed_fields) if changed_fields else node
-    return node
+    held = ((name, getattr(node, name)) for name in field_names(type(node)))
+    changed_fields = {name: new for name, old in held if (new := _changed(old, kind, change)) is not old}
+    return replace(node, **changed_fields) if changed_fields else node
 
 
 def nodes(tree: Any, kind: type) -> Iterator[Any]:
@@ -56,9 +53,9 @@ def nodes(tree: Any, kind: type) -> Iterator[Any]:
             yield from nodes(item, kind)
     elif isinstance(tree, dict):
         yield from nodes(tuple(tree.values()), kind)
-    elif is_dataclass(tree) and not isinstance(tree, type):
-        for field in fields(tree):
-            yield from nodes(getattr(tree, field.name), kind)
+    else:
+        for name in field_names(type(tree)):
+            yield from nodes(getattr(tree, name), kind)
 
 
 def relettered(tree: Tree, letters: Letters) -> Tree:

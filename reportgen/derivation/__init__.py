@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.derivation.group_forces import enter_forces
 from reportgen.derivation.group_motion import enter_kinematics
@@ -31,8 +31,7 @@ mean by the curve and by the work.
 """
 
 
-@record
-class PlannedLedger:
+class PlannedLedger(Record):
     """The ledger of an analysis, and the force plans that are laid out in it.
 
     There is a plan for each group, and the last is the driver's; without loads there are none.

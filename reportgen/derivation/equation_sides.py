@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Crank, Dyad, DyadKind, Group, Guide, Linkage, Triad, owners, under
 
@@ -33,8 +33,7 @@ def image(name: str) -> str:
     return name.lower()
 
 
-@record
-class Side:
+class Side(Record):
     """One side of a group's vector equation: the motion of a `point` as that of its `base` plus the relative motion.
 
     Either both are points of `link`, and the point turns about the base; then `along` is empty. Or the point slides
@@ -126,8 +125,7 @@ class Side:
         return ids.angular_velocity(self.turning)
 
 
-@record
-class Scheme:
+class Scheme(Record):
     """A linkage with the link of each point (`owner`), and the links that rotate together (`spins`)."""
 
     linkage: Linkage

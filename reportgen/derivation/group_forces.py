@@ -10,11 +10,10 @@ metres on paper (lengths drawn at μ_l).  `M.eq` and `M.vw` balance the driver. 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.derivation.equation_sides import scheme
 from reportgen.derivation.kinematic_entries import natural_sizes
 from reportgen.derivation.load_entries import (
@@ -96,8 +95,7 @@ CLEAR = 1e-3
 """A slide's reaction that stays above this share of the loads has a distance printed as M/R."""
 
 
-@record
-class Group:
+class Group(Record):
     """A dyad with the digits of its joints' reactions and the loads on its links i and j."""
 
     statics: Statics

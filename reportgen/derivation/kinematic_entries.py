@@ -13,7 +13,7 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import nice_up
 from reportgen.derivation.equation_sides import Scheme, Side, group_sides, image
 from reportgen.derivation.plan_scales import LEAST_MOTION, PER_MM, SHEET_BOXES, common_scale, drawable, extents
@@ -46,8 +46,7 @@ ROTATION = {"v": ("omega", 1), "a": ("eps", 2)}
 """Name of a link's rotation in ids, and the power of 1/s in its unit."""
 
 
-@record
-class Sizes:
+class Sizes(Record):
     """Reference sizes (m/s, m/s², rad/s): values below a billionth of them count as zero."""
 
     velocity: float
@@ -59,8 +58,7 @@ class Sizes:
         return self.velocity if what == "v" else self.acceleration
 
 
-@record
-class PlacedLink:
+class PlacedLink(Record):
     """A placed link: the point at the origin of its frame, its unit axis, and the data of its points' motion.
 
     With a second point `tip`, images follow by similarity; else by `omega` and `eps`, its signed angular

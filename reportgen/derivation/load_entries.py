@@ -12,7 +12,7 @@ from enum import IntEnum
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.derivation.equation_sides import Scheme, image
 from reportgen.derivation.kinematic_entries import NOWHERE, Sizes, longest
 from reportgen.derivation.plan_scales import LEAST_FORCES, Scaling, extents, own_scales
@@ -52,8 +52,7 @@ class Origin(IntEnum):
     weight = 3
 
 
-@record
-class LoadOn:
+class LoadOn(Record):
     """A load: its name, its link, its point of action ("" for a couple alone), its size, and its `letters` in symbols.
 
     `read_at` is the scale of the plan from which a force of another group was read.
@@ -71,8 +70,7 @@ class LoadOn:
 EnterGuide = Callable[["Statics", str, int], None]
 
 
-@record
-class Statics:
+class Statics(Record):
     """The calculation `q`, the linkage and the loads while reactions are entered group by group."""
 
     q: Calculation
@@ -317,8 +315,7 @@ LETTERS = "efghijklmqrtuvwxyzabcd"
 """Vertices of a force plan in the order of drawing; n is where the unknown edges meet."""
 
 
-@record
-class Edge:
+class Edge(Record):
     """One force on a `link` in a polygon, from vertex to vertex; closing the polygon gives the `unknown` edges."""
 
     name: str
@@ -339,8 +336,7 @@ class Edge:
         return read["part"] if read else ""
 
 
-@record
-class Polygon:
+class Polygon(Record):
     """A group's force plan: its edges head to tail and the joints read from it.
 
     `reads` are further vectors read between vertices, e.g. the reaction in the inner joint.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 from reportgen.derivation.load_entries import EnterGuide, Statics
 from reportgen.formula import Expression, Ref
@@ -36,8 +36,7 @@ def _no_mistakes(ledger: Ledger, machine: Machine) -> Changed:
     return {}
 
 
-@record
-class LedgerHooks:
+class LedgerHooks(Record):
     """The entries of a topic, in the order in which they are made, and mistakes that marking looks for."""
 
     enter_guide: EnterGuide = _no_guide

@@ -13,7 +13,7 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.derivation.equation_sides import Scheme, Side, image, triad_sides
 from reportgen.derivation.kinematic_entries import Kinematics, What
 from reportgen.derivation.link_points import enter_rod, images, places
@@ -33,8 +33,7 @@ from reportgen.machine.kinematics import Motion, solve_motion
 from reportgen.machine.triads import PAIRS
 
 
-@record
-class SpecialPoint:
+class SpecialPoint(Record):
     """The special point of two legs of a triad: its `name`, the two legs, and the third leg."""
 
     name: str
@@ -130,8 +129,7 @@ def _places(k: Kinematics, triad: Triad, motion: Motion) -> None:
     k.put(triad.plate, first.inner, axis, second.inner)
 
 
-@record
-class _Entry:
+class _Entry(Record):
     """The plans of a triad while they are entered; `legs` are the sides on which the plate's joints turn."""
 
     k: Kinematics

@@ -13,11 +13,10 @@ from __future__ import annotations
 
 import datetime
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import field, fields
 from typing import Any, Literal, Self
 
 from reportgen.base.languages import UnitNames, setting_of
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, uncompared
 from reportgen.base.units import Language
 from reportgen.document.cjk_punctuation import set_out
 from reportgen.document.inlines import DOTS as DOTS
@@ -38,8 +37,8 @@ from reportgen.formula.plain_text import formula, quantity
 # --- blocks ---------------------------------------------------------------------------------------
 
 
-@record
-class Section:
+@uncompared("opens")
+class Section(Record):
     """A heading; level 1 is a part of the report, 4 is a run-in heading.
 
     `numbered=False` is for a foreword, a conclusion and the like, which are listed in the contents but not counted. A
@@ -51,19 +50,17 @@ class Section:
     key: str = ""
     numbered: bool = True
     number: str = ""
-    opens: str = field(default="", compare=False)
+    opens: str = ""
 
 
-@record
-class Paragraph:
+class Paragraph(Record):
     """A paragraph of inlines; `align` is "" for the document's usual alignment."""
 
     inlines: Inlines
     align: Literal["", "center", "right"] = ""
 
 
-@record
-class List:
+class List(Record):
     """A list whose items are blocks; an `ordered` one counts from `start`."""
 
     items: tuple[tuple[Block, ...], ...]
@@ -71,8 +68,7 @@ class List:
     start: int = 1
 
 
-@record
-class Equation:
+class Equation(Record):
     """One or more displayed lines; each row is one expression.
 
     With a `key` the group is numbered, once, on its last row. A row too wide for the text block is
@@ -90,24 +86,21 @@ FIRST_COLUMN = 16.0
 """Width (mm) of the column of a table that names the positions."""
 
 
-@record
-class Column:
+class Column(Record):
     """A column of a table: its width (mm) and the alignment of its cells."""
 
     width: float
     align: Literal["left", "center", "right"] = "center"
 
 
-@record
-class Cell:
+class Cell(Record):
     """A cell of a table; `span` is the number of columns that it covers."""
 
     inlines: Inlines = ()
     span: int = 1
 
 
-@record
-class Table:
+class Table(Record):
     """A ruled table; where it continues on the next page, its number and its `head` rows are repeated.
 
     A cell spans columns only; one across the whole table is a heading of the rows below it. A `framed` table has a
@@ -125,8 +118,7 @@ class Table:
     last: int = 3
 
 
-@record
-class Figure:
+class Figure(Record):
     """One scene, or several side by side in rows as they fit, with one caption, in true size.
 
     If the page has no room for it, the text continues to the end of the page before it. A figure `turned` by 90° has
@@ -145,8 +137,7 @@ class Figure:
     """Number of the table that has the facts of its drawings and more; numbering fills it in if there is one."""
 
 
-@record
-class Plate:
+class Plate(Record):
     """A figure on a separate page of its paper size (mm), too large in true size for the A4 text block, even turned.
 
     Plates are collected at the end of their chapter. With `continues`, it is a further page of the figure before it,
@@ -163,8 +154,7 @@ class Plate:
     rest: str = ""
 
 
-@record
-class Cover:
+class Cover(Record):
     """The title page: institution lines on top, title lines in the middle, labelled fields, place and date."""
 
     institution: tuple[str, ...]
@@ -175,8 +165,7 @@ class Cover:
     place_and_date: str
 
 
-@record
-class Contents:
+class Contents(Record):
     """Table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
 
     It has separate pages unless `alone` is False: then the document continues below it.
@@ -187,22 +176,19 @@ class Contents:
     alone: bool = True
 
 
-@record
-class BlankLine:
+class BlankLine(Record):
     """A dotted line to write on."""
 
     label: str = ""
 
 
-@record
-class Listing:
+class Listing(Record):
     """Lines of a program, printed verbatim in a monospaced font."""
 
     lines: tuple[str, ...]
 
 
-@record
-class PageBreak:
+class PageBreak(Record):
     """The end of a page."""
 
 
@@ -211,8 +197,7 @@ Block = (
 )
 
 
-@record
-class Words:
+class Words(Record):
     """The few words that writers themselves print, in the report's language."""
 
     figure: str
@@ -225,9 +210,9 @@ class Words:
     """Label of a later part of a figure, on any page: part 2."""
     save: str
     """Label of the buttons below a figure on a page."""
-    speech: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    speech: Mapping[str, Any] = field(default_factory=dict)
     """Spoken words of formulas; units by their printed signs."""
-    phrases: Mapping[str, str] = field(default_factory=dict, repr=False)
+    phrases: Mapping[str, str] = field(default_factory=dict)
     """Phrases of the descriptions of drawings, by name."""
 
     @classmethod
@@ -236,11 +221,10 @@ class Words:
         speech, printed = words["speech"], UnitNames({**setting_of(language).units, **words["units"]})
         units = {printed.get(unit, unit): said for unit, said in speech["units"].items()}
         own = words["document"] | {"speech": {**speech, "units": units}, "phrases": words["told"]}
-        return cls(*(own[field.name] for field in fields(cls)))
+        return cls(*(own[name] for name in cls.__struct_fields__))
 
 
-@record
-class Document:
+class Document(Record):
     """A finished report: its blocks in order, and the texts that every page carries."""
 
     language: Language
@@ -251,7 +235,7 @@ class Document:
     footer: tuple[str, str]
     """Left text of the running footer, and the word before the page number."""
     words: Words
-    blocks: tuple[Block, ...] = field(default=())
+    blocks: tuple[Block, ...] = ()
     close: bool = False
     """True if it is set in smaller type with less room between lines and blocks."""
     date: datetime.date | None = None

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import FIGURE_HEIGHT
 from reportgen.drawing import Scene
@@ -32,8 +30,7 @@ LEAST_MARGIN = 0.5
 """White space (mm) that remains around a scene."""
 
 
-@record
-class FigureScenes:
+class FigureScenes(Record):
     """Scenes of a figure; `paper` (mm) requests a separate page for each, `turned` an A4 landscape page."""
 
     scenes: tuple[Scene, ...]

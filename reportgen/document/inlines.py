@@ -5,61 +5,53 @@ Texts are plain strings exactly as they appear in print; writers escape them.
 
 from __future__ import annotations
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import Expression, Number
 
 
-@record
-class Text:
+class Text(Record):
     """Plain text."""
 
     text: str
 
 
-@record
-class Emph:
+class Emph(Record):
     """Emphasised inlines, printed in italics."""
 
     of: tuple[Inline, ...]
 
 
-@record
-class Strong:
+class Strong(Record):
     """Strong inlines, printed in bold."""
 
     of: tuple[Inline, ...]
 
 
-@record
-class InlineMath:
+class InlineMath(Record):
     """A symbol or a short formula inside a line; `slashed` fractions keep the height of the line: 3 l/2."""
 
     expression: Expression
     slashed: bool = False
 
 
-@record
-class Value:
+class Value(Record):
     """A number with its unit inside a line or a table cell."""
 
     number: Number
 
 
-@record
-class Reference:
+class Reference(Record):
     """The number of the block called `key`, linked; `text` is filled in by numbering."""
 
     key: str
     text: str = ""
 
 
-@record
-class LineBreak:
+class LineBreak(Record):
     """The end of a line inside a paragraph."""
 
 
-@record
-class Blank:
+class Blank(Record):
     """A place to fill in.
 
     `name` is the name of the value, `called` a shorter one for systems with limited names, and `title` the title of the

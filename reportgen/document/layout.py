@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import groupby
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.document import (
     TEXT_WIDTH,
@@ -40,8 +39,7 @@ CERTAIN = 0.96
 """Share of the room up to which an estimated row certainly fits; one that is too wide would part all others."""
 
 
-@record
-class Letter:
+class Letter(Record):
     """The font of running text ("" for the typesetter's own) and its size in points.
 
     Formulas and labels of figures keep their own font, by which they are measured.

@@ -20,7 +20,7 @@ from markdown_it.tree import SyntaxTreeNode
 
 from reportgen import document as tree
 from reportgen.base.errors import TemplateError
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.words import of_file, word
 
 SECRET = str(secrets.randbelow(10**18)).zfill(18)
@@ -29,15 +29,13 @@ TOKEN = re.compile(f"\ue000{SECRET}:(\\d+)\ue001")
 """A value's token in the Markdown text; its group is the index of the value."""
 
 
-@record
-class SectionKey:
+class SectionKey(Record):
     """The name of the section whose heading it ends."""
 
     name: str
 
 
-@record
-class Unnumbered:
+class Unnumbered(Record):
     """A mark that excludes the section whose heading it ends from numbering."""
 
 
@@ -45,8 +43,7 @@ Emitted = tree.Inline | tree.Block | SectionKey | Unnumbered
 TemplateLine = tuple[str, int]
 
 
-@record
-class Rendered:
+class Rendered(Record):
     """Markdown with tokens: `values` and their `places` by index, `lines` the origin of every line."""
 
     text: str
@@ -71,8 +68,7 @@ _UNKNOWN = {
 }
 
 
-@record
-class _Piece:
+class _Piece(Record):
     """A value and the index of its token."""
 
     value: Emitted
@@ -123,8 +119,7 @@ def _parser() -> MarkdownIt:
     return parser.disable(["code", "lheading", "reference", "entity"])
 
 
-@record
-class _Reader:
+class _Reader(Record):
     rendered: Rendered
 
     # --- blocks

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import chain
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.document import Block, Document, Figure, List, Plate, plain
 from reportgen.drawing import Scene
 
@@ -17,8 +16,7 @@ _UNSAFE = re.compile(r"[^\w.′″-]+")
 """Characters that no file name needs."""
 
 
-@record
-class NamedFigure:
+class NamedFigure(Record):
     """A figure of a report: its name, its number and caption as text, its drawings.
 
     One that shows a position, whose label is `at`, has it at the end of its name, v.4.

@@ -11,11 +11,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
 from reportgen import document as tree
 from reportgen.base.errors import DocumentError
+from reportgen.base.records import replace
 from reportgen.document import plain
 from reportgen.document.cjk_punctuation import set_out
 

@@ -14,7 +14,7 @@ import traceback
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from contextvars import ContextVar
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 from pickle import UnpicklingError
@@ -40,6 +40,7 @@ from jinja2.utils import pass_context
 from reportgen.base.errors import ReportgenError, TemplateError
 from reportgen.base.files import keep, kept
 from reportgen.base.process_limits import TEMPLATES, LimitError, is_bounded
+from reportgen.base.records import asdict, replace
 from reportgen.base.template_access import template_members
 from reportgen.base.template_access import text as as_text
 from reportgen.base.template_folders import DEFAULT_LANGUAGE

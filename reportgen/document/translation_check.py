@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Set
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -22,7 +21,7 @@ from reportgen.base.field_words import SECTION as FIELDS
 from reportgen.base.kinds import SAMPLE
 from reportgen.base.languages import MobilityNotation, read_setting
 from reportgen.base.placeholders import gaps
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import LANGUAGE_FILE, MACHINES, REFERENCE, TOPICS, templates
 from reportgen.base.words import MESSAGES_SECTION, SECTION, Passage, sections
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_own, text_in
@@ -132,8 +131,7 @@ def _marks(levels: Iterable[int]) -> str:
     return " ".join("#" * level for level in levels) or "–"
 
 
-@record
-class SectionContents:
+class SectionContents(Record):
     """Language-independent contents of a section, and the words inside its braces, by their lines."""
 
     calls: frozenset[str]
@@ -335,8 +333,7 @@ def _lines_of(file: Path, lacking: MissingLetters) -> Iterator[Fault]:
 # --- terms ------------------------------------------------------------------------------------------
 
 
-@record
-class Terms:
+class Terms(Record):
     """Terms of the glossary in a language: for each, its name in the language of reference, as it is found in a
     text, and the language's names, any of which will do.
     """

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 
+from reportgen.base.records import replace
 from reportgen.document import (
     Block,
     Emph,

@@ -7,10 +7,9 @@ machines, nor writers on figures.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, uncompared
 from reportgen.drawing.chart_data import Content as Content
 from reportgen.drawing.chart_data import Diagram as Diagram
 from reportgen.drawing.chart_data import PlottedCurve as PlottedCurve
@@ -19,8 +18,7 @@ from reportgen.drawing.drawing_description import Description as Description
 Anchor = Literal["center", "left", "right", "top", "bottom", "top-left", "top-right", "bottom-left", "bottom-right"]
 
 
-@record
-class Pen:
+class Pen(Record):
     """A pen: width in mm, colour as #rrggbb, dashes (on, off, …) in mm; empty dashes draw solid."""
 
     width: float = 0.25
@@ -28,8 +26,7 @@ class Pen:
     dash: tuple[float, ...] = ()
 
 
-@record
-class Line:
+class Line(Record):
     """A straight line from `start` to `end` (mm)."""
 
     start: complex
@@ -37,8 +34,7 @@ class Line:
     stroke: Pen = Pen()
 
 
-@record
-class Arrow:
+class Arrow(Record):
     """Straight arrow whose tip lies exactly on `end`; `head` is the head's length in mm.
 
     `name` (e.g. "pb") identifies the arrow for measurements of the drawing; it is not printed.
@@ -51,8 +47,7 @@ class Arrow:
     name: str = ""
 
 
-@record
-class Circle:
+class Circle(Record):
     """A circle about `centre` with a `radius` (mm); `stroke` and `fill` (#rrggbb) are None where it has none."""
 
     centre: complex
@@ -61,8 +56,7 @@ class Circle:
     fill: str | None = None
 
 
-@record
-class Arc:
+class Arc(Record):
     """An arc about `centre` with a `radius` (mm), from `start` to `stop` (rad, anticlockwise if stop > start).
 
     A `head` > 0 (mm) is the length of an arrow tip at the stop.
@@ -76,8 +70,7 @@ class Arc:
     head: float = 0.0
 
 
-@record
-class Polyline:
+class Polyline(Record):
     """Straight lines through points (mm).
 
     `smooth` marks a curve whose lines are so short that the CAD file may contain a spline as well.
@@ -90,8 +83,7 @@ class Polyline:
     smooth: bool = False
 
 
-@record
-class Hatch:
+class Hatch(Record):
     """Parallel strokes that fill a convex polygon (ground, sections), `spacing` mm apart.
 
     They rise at 45° from the direction `turn` (rad).
@@ -103,8 +95,7 @@ class Hatch:
     turn: float = 0.0
 
 
-@record
-class Label:
+class Label(Record):
     """Text at a point (mm); `anchor` is the point of its box that lies on `at`."""
 
     at: complex
@@ -123,13 +114,13 @@ class Label:
 Item = Line | Arrow | Circle | Arc | Polyline | Hatch | Label
 
 
-@record
-class Scene:
+@uncompared("diagram", "description")
+class Scene(Record):
     """A drawing of `width` × `height` mm in true size."""
 
     width: float
     height: float
-    items: tuple[Item, ...] = field(default=(), repr=False)
+    items: tuple[Item, ...] = ()
     title: str = ""
     """A short plain title printed below one of several scenes of a figure, e.g. "a)"."""
     margin: float = 0.0
@@ -138,7 +129,10 @@ class Scene:
     """True if its labels need more room than the drawing has."""
     at: str = ""
     """The position of the machine, if the figure has a scene for each of several positions; it is not printed."""
-    diagram: Diagram | None = field(default=None, compare=False, repr=False)
+    diagram: Diagram | None = None
     """The diagram that it was drawn from, if it is a chart."""
-    description: Description = field(default=(), compare=False, repr=False)
+    description: Description = ()
     """Text description for screen readers."""
+
+    def __repr__(self) -> str:
+        return f"<scene, {self.width:.0f} × {self.height:.0f} mm, {len(self.items)} items>"

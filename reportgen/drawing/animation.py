@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
 from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.units import nice_up
 from reportgen.drawing import Circle, Content, Item, Label, Line, Pen, Polyline, spring_drawings, style
 from reportgen.drawing.charts import Plotted
@@ -64,16 +63,14 @@ class Track:
         return Track(self.values + other.values)
 
 
-@record
-class Still:
+class Still(Record):
     """Items that do not move."""
 
     items: tuple[Item, ...]
     layer: str = ""
 
 
-@record
-class MovingBody:
+class MovingBody(Record):
     """Items in a frame that moves: its origin follows `at` and it turns by `angle` (rad)."""
 
     items: tuple[Item, ...]
@@ -82,8 +79,7 @@ class MovingBody:
     layer: str = ""
 
 
-@record
-class MovingVector:
+class MovingVector(Record):
     """An arrow between two tracks, or with `head` 0 a line, extended by `beyond` mm at its end."""
 
     start: Track
@@ -96,8 +92,7 @@ class MovingVector:
     beyond: float = 0.0
 
 
-@record
-class MovingName:
+class MovingName(Record):
     """A label that follows a track, on the side away from its `neighbours`."""
 
     content: Content
@@ -107,8 +102,7 @@ class MovingName:
     layer: str = ""
 
 
-@record
-class Spot:
+class Spot(Record):
     """A named point that displays its motion under the pointer.
 
     `on_stage` is its place on the drawing (mm); the other tracks are those of the machine: `place` (m), `velocity`
@@ -125,8 +119,7 @@ class Spot:
 MovingItem = Still | MovingBody | MovingVector | MovingName
 
 
-@record
-class BarScale:
+class BarScale(Record):
     """The scale of a drawing for a `kind` of quantity: `per` is the SI value that one millimetre represents.
 
     Its bar is visible with any of its `layers`, or always if it has none.
@@ -146,8 +139,7 @@ class BarScale:
         return Number(value, None, units.get(how.unit, how.unit)), value * how.scale / self.per
 
 
-@record
-class Pane:
+class Pane(Record):
     """A moving drawing, in mm, in the box from `low` to `high`, with its scales as bars below.
 
     With `finer`, one scale is used at a time, and `finer` is its index at each sample; the items are drawn at the first
@@ -196,16 +188,14 @@ def scale_bars(pane: Pane, units: Mapping[str, str]) -> tuple[complex, list[tupl
     return pane.low - 1j * strips * STRIP * enlargement, bars
 
 
-@record
-class Curve:
+class Curve(Record):
     """A curve of a chart: its label, and its values in the unit of its axis."""
 
     label: Content
     values: Track
 
 
-@record
-class Chart:
+class Chart(Record):
     """A chart with a cursor along the driver's travel.
 
     On the chart `of_run` the working point of the drive moves: the speed across, the torque upwards.
@@ -216,8 +206,7 @@ class Chart:
     of_run: bool = False
 
 
-@record
-class TimedRun:
+class TimedRun(Record):
     """A motion that can be played in time: "steady", "start" or "stop".
 
     At the times t (s) [K] the driver has turned by the `angle` (degrees) [K] from the first position, which may exceed
@@ -231,8 +220,7 @@ class TimedRun:
     drive: np.ndarray
 
 
-@record
-class MomentValue:
+class MomentValue(Record):
     """A number that the page displays for the current moment: its symbol, its unit, its values in that unit."""
 
     symbol: Content
@@ -241,8 +229,7 @@ class MomentValue:
     decimals: int
 
 
-@record
-class Errors:
+class Errors(Record):
     """Largest errors from linear interpolation between samples."""
 
     place: float
@@ -253,8 +240,7 @@ class Errors:
     """Error of velocities, accelerations and forces as a share of their greatest value."""
 
 
-@record
-class Animation:
+class Animation(Record):
     """An animation in a panel of a page.
 
     `knots` are the samples of one turn in degrees, from 0 to 360; tracks of the cycle continue through all `turns`. The
@@ -273,7 +259,7 @@ class Animation:
     charts: tuple[Chart, ...]
     values: tuple[MomentValue, ...]
     errors: Errors
-    layers: tuple[str, ...] = field(default=())
+    layers: tuple[str, ...] = ()
     """Layers that can be switched on: first those of `LAYERS`, then those of the topics."""
     name: str = ""
     title: str = ""
@@ -426,8 +412,7 @@ def _names(plan: Construction[str], tracks: Mapping[str, Track], gap: float) -> 
     return [MovingName(label, tracks[at], tuple(joined.get(at, ())), gap) for label, at in named]
 
 
-@record
-class Fitted:
+class Fitted(Record):
     """Moving corners that fit a panel.
 
     `tracks` are their places (mm from the panel's middle) at the first of the `scales`; `finer` is 1 at samples that

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from functools import reduce
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Content, Description, Item, Scene, style
 from reportgen.drawing.drawing_description import fact
@@ -22,8 +22,7 @@ MARGIN = 6.0
 """Usual margin of a scene on each side (mm)."""
 
 
-@record
-class Canvas:
+class Canvas(Record):
     """A draft: items in painting order, labels still to be placed, and the text description for screen readers."""
 
     items: tuple[Item, ...] = ()

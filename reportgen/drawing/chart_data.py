@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-from dataclasses import field
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language, write
 from reportgen.drawing.mathtext import MathText
 from reportgen.formula import Expression
@@ -24,8 +23,7 @@ BESIDE = {"textcoords": "offset points", "xytext": (3, 3), "fontsize": "small"}
 """Matplotlib style and offset (points) of the name at a marked point or an angle."""
 
 
-@record
-class PlottedCurve:
+class PlottedCurve(Record):
     """One curve: x [K] and y [K], its label, and indices of the points that get a mark.
 
     Measured values have `dots` only.
@@ -40,8 +38,7 @@ class PlottedCurve:
     dots: bool = False
 
 
-@record
-class Inclination:
+class Inclination(Record):
     """The angle of a straight line of this `slope` (in the units of the axes) at the point x, y of a chart.
 
     Its arc has the `radius` (mm); the reference line is drawn a little beyond the arc.
@@ -54,15 +51,14 @@ class Inclination:
     radius: float
 
 
-@record
-class Diagram:
+class Diagram(Record):
     """Curves in one frame whose axes are named `x` and `y`.
 
     With `turn`, x is an angle in degrees.  `levels` are horizontal lines with a name, e.g. a mean; with `equal`, both
     axes of a hodograph have one scale.  On paper y = 0 is within the range, unless `zero` is False.
     """
 
-    curves: tuple[PlottedCurve, ...] = field(repr=False)
+    curves: tuple[PlottedCurve, ...]
     x: Content = ""
     y: Content = ""
     turn: bool = True
@@ -71,6 +67,10 @@ class Diagram:
     equal: bool = False
     title: str = ""
     zero: bool = True
+
+    def __repr__(self) -> str:
+        number = len(self.curves)
+        return f"<diagram with {number} {'curve' if number == 1 else 'curves'}; draw it: .on(axes)>"
 
     def on(self, axes: Any, language: Language = "en", **look: Any) -> Any:
         """Add the diagram to axes of matplotlib and return the axes.

@@ -6,13 +6,12 @@ import cmath
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain, count
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import ALIKE, first_greatest, first_least, settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import (
@@ -87,8 +86,7 @@ TINY = 1e-12
 Vertices = NDArray[np.float64]
 
 
-@record
-class Area:
+class Area(Record):
     """The room inside the axes that a chart may fill (mm), at round scales, which are printed.
 
     Room and scales are those of the chart after enlargement by `enlarged`.  `scales` across and upwards, in the units
@@ -106,8 +104,7 @@ class Area:
         return nice_up(length / room)
 
 
-@record
-class _Window:
+class _Window(Record):
     """Data ranges and the size of their paper: x0…x1 over `width` mm, y0…y1 over `height` mm."""
 
     x: tuple[float, float]
@@ -127,8 +124,7 @@ class _Window:
         return complex(across, up)
 
 
-@record
-class Plotted:
+class Plotted(Record):
     """A chart with its coordinates: the corners of its axes on the scene (mm), and the values there."""
 
     scene: Scene

@@ -8,12 +8,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import first_greatest, first_least, significant
 from reportgen.base.units import rounded
 from reportgen.drawing.chart_data import Content, Diagram, PlottedCurve
@@ -27,8 +26,7 @@ MOST_ZEROS = 6
 """The zeros of a curve are listed only if it has at most this many."""
 
 
-@record
-class PaperLength:
+class PaperLength(Record):
     """A length on the paper of the drawing (mm)."""
 
     value: float
@@ -37,8 +35,7 @@ class PaperLength:
 Told = Content | PaperLength | tuple[Content, ...]
 
 
-@record
-class Fact:
+class Fact(Record):
     """One statement about a drawing: the key of a phrase, and the values of its placeholders in order.
 
     A value that is a tuple of contents is read as a list.

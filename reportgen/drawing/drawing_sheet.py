@@ -6,11 +6,10 @@ A sheet's origin is its lower left corner; lengths are millimetres of paper.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field, replace
 from functools import lru_cache
 from typing import TypeVar
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.drawing import (
     Arc,
     Arrow,
@@ -35,8 +34,7 @@ GAP = 5.0
 """Gap between plates, and between them and the frame (mm)."""
 
 
-@record
-class PlacedScene:
+class PlacedScene(Record):
     """A scene on a sheet with its lower left corner at `at`; `name` groups its items, `layer` is its CAD layer."""
 
     name: str
@@ -50,8 +48,7 @@ class PlacedScene:
         return self.at, self.at + complex(self.scene.width, self.scene.height)
 
 
-@record
-class DrawingSheet:
+class DrawingSheet(Record):
     """A sheet of paper, `width` × `height` mm, with its drawings; `name` is the name of its size, such as A1.
 
     `fields` are the texts of its title block; a sheet without fields has no frame.
@@ -64,8 +61,7 @@ class DrawingSheet:
     fields: Mapping[str, str] = field(default_factory=dict)
 
 
-@record
-class Room:
+class Room(Record):
     """Room inside a frame from corner `low` to `high`, without the title block.
 
     `block` (width, height) is the title block in the lower right corner.

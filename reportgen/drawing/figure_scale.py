@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language, nice_down, nice_up
 from reportgen.formula import Chain, Expression, Number
 from reportgen.formula.plain_text import formula, quantity
@@ -17,8 +17,7 @@ NEXT = 1 - 1e-9
 """A scale below this share of a standard scale counts as the next finer one."""
 
 
-@record
-class FigureSize:
+class FigureSize(Record):
     """Size of a figure: `steps` standard scales larger than in a report, then `enlarged` with its letters.
 
     `beside` is the phrase for the report's scale on a sheet, as "report: {scale}"; empty in a report.

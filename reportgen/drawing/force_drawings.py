@@ -8,11 +8,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import combinations
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -43,8 +42,7 @@ QUARTER = 8.0
 """Radius of the arc of 90° (mm)."""
 
 
-@record
-class Force:
+class Force(Record):
     """A force at `at` (mm on the drawing) along `direction` (any length); an arm refers to its `id`."""
 
     label: Content
@@ -54,8 +52,7 @@ class Force:
     id: str = ""
 
 
-@record
-class Couple:
+class Couple(Record):
     """A couple drawn as an arc about `at`, anticlockwise when `sense` > 0."""
 
     label: Content
@@ -63,8 +60,7 @@ class Couple:
     sense: float
 
 
-@record
-class ArmOf:
+class ArmOf(Record):
     """The distance from the moment point `about` to the line of the force with the id `force`.
 
     `length` is the printed length (mm on the drawing), or None.
@@ -76,8 +72,7 @@ class ArmOf:
     length: float | None = None
 
 
-@record
-class Sliding:
+class Sliding(Record):
     """A relative velocity along a rotating guide: labels, directions (any length), and the sense of ω (±1)."""
 
     point: Symbol

@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from functools import lru_cache
 from typing import TypeVar
 
@@ -13,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Flags
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline
 from reportgen.drawing.label_size import box
@@ -185,8 +184,7 @@ def clipped(start: complex, end: complex, low: complex, high: complex) -> tuple[
     return (start + enter * d, start + leave * d) if enter < leave else None
 
 
-@record
-class HalfPlane:
+class HalfPlane(Record):
     """Half-plane on the side of `inward` of a line through `at` (mm)."""
 
     at: complex

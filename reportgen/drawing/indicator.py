@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.stable_digits import settled
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
@@ -45,8 +45,7 @@ READ = 4
 """Digits of a pressure that is read from the diagram."""
 
 
-@record
-class Branch:
+class Branch(Record):
     """One stroke's line: fractions of the stroke from the top dead centre [K] and pressures [K] (any one unit)."""
 
     label: Content
@@ -54,8 +53,7 @@ class Branch:
     pressure: tuple[float, ...]
 
 
-@record
-class Reading:
+class Reading(Record):
     """A numbered position on the diagram: its reading, and the place from which it is projected (mm), or None."""
 
     label: Content
@@ -68,8 +66,7 @@ ReadingGroup = Sequence[Reading]
 """Readings whose numbers are side by side in one label."""
 
 
-@record
-class ChartFrame:
+class ChartFrame(Record):
     """Position of the diagram in mm: its stroke axis runs from `top` to `bottom`, pressure along `side`.
 
     `scale` is μ_p, pressure per mm; `axis` and `note` are the label of the pressure axis and the printed scale.

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import replace
 from reportgen.drawing import Content, Item, Label, Scene
 from reportgen.drawing.geometry import corners_of, frame, moved, overlap, segments
 from reportgen.drawing.label_candidates import CLEAR

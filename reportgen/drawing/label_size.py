@@ -12,7 +12,7 @@ from collections.abc import Iterable, Mapping
 from functools import lru_cache, reduce
 from pathlib import Path
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing import Content
 from reportgen.formula import Symbol, formula_layout, formula_setter
 from reportgen.formula.vocabulary import numbered, runs
@@ -40,8 +40,7 @@ THIN = 0.17
 """Gap between a function and its argument, in font sizes."""
 
 
-@record
-class Box:
+class Box(Record):
     """Width, height above and depth below the baseline (mm)."""
 
     width: float

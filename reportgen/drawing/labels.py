@@ -13,13 +13,13 @@ from __future__ import annotations
 import dataclasses
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache, reduce
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Circle, Content, Item, Label, Line, Pen, Polyline, style
 from reportgen.drawing.geometry import Ink, frame, overlap, segments
@@ -54,8 +54,7 @@ APART = 0.7
 """Gap between two labels (mm)."""
 
 
-@record
-class Request:
+class Request(Record):
     """A label to be placed, made by `label`."""
 
     points: tuple[complex, ...]
@@ -312,8 +311,7 @@ def _offered(request: Request) -> tuple[complex, Complexes]:
     return half, spots[ranking(request.prefer, len(request.points))]
 
 
-@record
-class Placed:
+class Placed(Record):
     """The labels of a figure, the lines of its key, each of parts, and True if the figure is too small for them.
 
     If it is `crowded`, some label is connected to its point only by its leader, or hides more than gray lines.

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import ClassVar
 
+from reportgen.base.records import replace
 from reportgen.formula import Chain, Expression, Symbol
 from reportgen.formula.formula_layout import NAMED, Fence, Sign, Written, is_tall, parted
 from reportgen.formula.formula_setter import TextSetter

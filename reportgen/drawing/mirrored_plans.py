@@ -10,7 +10,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing.vector_plan import Plan
 
 SAME_END = 0.01
@@ -21,8 +21,7 @@ SAME_MIRROR = 1e-3
 """Two lines of mirroring coincide if twice their angle is at most this (rad)."""
 
 
-@record
-class Mirrored:
+class Mirrored(Record):
     """Positions, and in the same order the earlier positions whose plans theirs mirror."""
 
     at: tuple[int, ...]

@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.drawing import Content, Scene
 from reportgen.drawing.drawing_sheet import GAP, PlacedScene, headed
 
@@ -17,8 +17,7 @@ DUST = 1e-6
 """Rounding of places (mm)."""
 
 
-@record
-class Arranged:
+class Arranged(Record):
     """The scenes of a plate in rows, by their numbers, with the width and height (mm) of all below its head."""
 
     width: float

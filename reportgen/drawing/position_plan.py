@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -44,8 +44,7 @@ BEYOND = 3.0
 """Length (mm) of a normal beyond the centre."""
 
 
-@record
-class PositionPlan:
+class PositionPlan(Record):
     """Contents of a position plan.
 
     `numbered` are points labelled with each position's number (A₁ … A₈), `paths` points whose curves are drawn from a
@@ -141,8 +140,7 @@ def _position_facts(linkage: Linkage, motion: Motion, shows: PositionPlan, count
     return tuple(facts)
 
 
-@record
-class DrawnCentre:
+class DrawnCentre(Record):
     """The instant centre of a link, at `at` (mm), where the normals of the velocities of two `points` meet."""
 
     name: Content
@@ -150,8 +148,7 @@ class DrawnCentre:
     points: tuple[str, str]
 
 
-@record
-class PlaneMotion:
+class PlaneMotion(Record):
     """A link in plane motion by its points: their velocities (any size), and the names of their angles with
     the link.
     """
@@ -229,8 +226,7 @@ def _inclined(bones: Skeleton, moving: Sequence[PlaneMotion]) -> Canvas:
     return Canvas(tuple(items), tuple(requests), tuple(facts))
 
 
-@record
-class SwingMarks:
+class SwingMarks(Record):
     """Construction of both ends of a pin's path (m): the crank's `centre`, the rocker's `pivot`, the pin's `ends`.
 
     `angles` are the names of the angles between the lines to the ends, seen from both. A slider has no pivot and only

@@ -7,13 +7,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field, replace
 from itertools import combinations
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Label, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
@@ -28,8 +27,7 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.spring_geometry import Coil
 
 
-@record
-class Slide:
+class Slide(Record):
     """A block of `link` at its point `name` on a guide of link `on`, along `angle` (rad) from `low` to `high` (mm)."""
 
     link: int
@@ -43,8 +41,7 @@ class Slide:
     """True if the block is a separate link, pinned at its middle; False if it is the end of a longer link."""
 
 
-@record
-class Skeleton:
+class Skeleton(Record):
     """Points (mm) by name, joints of each moving link, slides, ground pivots.
 
     `owners` gives the link of each further point (mass centres, coupler points); `reached` is False if the mechanism
@@ -157,8 +154,7 @@ def _axis(motion: Motion, guide: Guide | Dyad) -> tuple[int, Floats, Complexes]:
 # --- drawings -------------------------------------------------------------------------------------
 
 
-@record
-class Looks:
+class Looks(Record):
     """Drawing options of a machine.
 
     `blocks` gives the length (along the guide) and width of a slider's block in mm of paper (a piston's bore, say);
@@ -294,8 +290,7 @@ def link_facts(bones: Skeleton, links: Sequence[int]) -> Iterator[Fact]:
         yield fact("pivots", standing)
 
 
-@record
-class LinkShape:
+class LinkShape(Record):
     """A link drawn in its own frame (mm): the guide it carries, its bars, its block, in painting order."""
 
     rails: tuple[Item, ...]

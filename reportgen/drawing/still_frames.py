@@ -9,11 +9,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Polyline, Scene, style
 from reportgen.drawing.animation import (
@@ -50,8 +50,7 @@ CLEAR = 0.25
 """Gap between two labels (mm)."""
 
 
-@record
-class Moment:
+class Moment(Record):
     """A sample of an animation's cycle, from 0."""
 
     animation: Animation
@@ -125,8 +124,7 @@ def _drawn(item: MovingItem, now: Moment, zoom: float, enlargement: float) -> It
                 yield Line(start, end + item.beyond * unit(end - start), pen)
 
 
-@record
-class _Request:
+class _Request(Record):
     """Requested label, its places in order of preference, and whether it is placed before others."""
 
     label: Label

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing import Circle, Content, Item, Line, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import direction, fact
@@ -25,8 +25,7 @@ BEYOND = 6.0
 """Length (mm) of the line of a leg beyond the special point."""
 
 
-@record
-class TemplateCurve:
+class TemplateCurve(Record):
     """Places on paper (mm) of the outer joints and of the joints of the plate as assembled.
 
     `trials` are the places of the plate's joints when the first two are on their arcs, one row each [3, N]; `path` is

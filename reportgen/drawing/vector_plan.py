@@ -10,11 +10,10 @@ import cmath
 import math
 from bisect import bisect_left
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import Generic, Literal, TypeVar
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.base.units import SERIES
 from reportgen.drawing import Arrow, Circle, Content, Item, Label, Line, Pen, Polyline, Scene, style
@@ -60,8 +59,7 @@ Corner = TypeVar("Corner")
 Placed = TypeVar("Placed")
 
 
-@record
-class PlanVector(Generic[Corner]):
+class PlanVector(Record, Generic[Corner]):
     """Arrow of a plan; `label` is printed beside it, `name` identifies it for measurements."""
 
     name: str
@@ -84,8 +82,7 @@ class PlanVector(Generic[Corner]):
         return abs(self.end - self.start)
 
 
-@record
-class PlanPoint(Generic[Corner]):
+class PlanPoint(Record, Generic[Corner]):
     """A named point of a plan: the pole, the end of a vector, a vertex."""
 
     label: Content
@@ -93,8 +90,7 @@ class PlanPoint(Generic[Corner]):
     stage: int = 0
 
 
-@record
-class PlanLine(Generic[Corner]):
+class PlanLine(Record, Generic[Corner]):
     """An auxiliary direction drawn from `start` through `end` and a little beyond."""
 
     start: Corner
@@ -102,8 +98,7 @@ class PlanLine(Generic[Corner]):
     stage: int = 0
 
 
-@record
-class Construction(Generic[Corner]):
+class Construction(Record, Generic[Corner]):
     """Vectors, named points and auxiliary directions between corners: places (mm) or only names.
 
     `points[0]` is the pole if there is one; `pole` marks it by a small circle.  `scale` is printed below.

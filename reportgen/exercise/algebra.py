@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import (
     Call,
     Expression,
@@ -89,8 +89,7 @@ def root(of: Algebraic) -> Algebraic:
     return _sympy().sqrt(of)
 
 
-@record
-class Plane:
+class Plane(Record):
     """A vector of the plane, by its components; it multiplies as a complex number."""
 
     real: Algebraic

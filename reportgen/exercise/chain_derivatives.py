@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
+from reportgen.base.records import replace
 from reportgen.exercise.derivation import Derivation
 from reportgen.exercise.position_chains import Closure, CoordinateRate, Linked, LoopVector, SlideTravel, Turn
 from reportgen.exercise.rate_conditions import GROUND

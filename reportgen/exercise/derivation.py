@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.exercise.instant_centres import Layout
 from reportgen.exercise.point_positions import SAME_DIRECTION, direction_of, parallel
 from reportgen.exercise.rate_solution import InstantMotion
@@ -20,16 +20,14 @@ from reportgen.formula.calculation import Calculation, Family, is_short
 # --- steps, as data for the page ----------------------------------------------------------------------
 
 
-@record
-class Vector:
+class Vector(Record):
     """A vector: the id of its magnitude, which is positive, and its unit direction."""
 
     id: str
     direction: complex
 
 
-@record
-class DerivationEquation:
+class DerivationEquation(Record):
     """Σ left = Σ right, as vectors; `unknown` are the ids of the two vectors whose magnitudes are not known yet."""
 
     left: tuple[Vector, ...]
@@ -40,8 +38,7 @@ class DerivationEquation:
 Letter = Literal["ξ", "η", "x", "y"]
 
 
-@record
-class Axis:
+class Axis(Record):
     """An axis through a point, on which vectors are projected; `direction` is its unit vector.
 
     ξ lies along the line that the text of the step names, away from the base point, and η perpendicular to it; x and y
@@ -62,8 +59,7 @@ COORDINATES: tuple[tuple[complex, Letter], ...] = ((1 + 0j, "x"), (1j, "y"))
 """The coordinate axes, each by its direction and its letter."""
 
 
-@record
-class Step:
+class Step(Record):
     """A step for a body and points, with the ids of the lines that it computes; `kind` is the key of its text."""
 
     kind: str

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator
 from itertools import permutations
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.exercise import file
 from reportgen.exercise.acceleration_steps import Parts
 from reportgen.exercise.derivation import Derivation, Step, Vector
@@ -23,8 +23,7 @@ from reportgen.exercise.rate_conditions import GROUND
 from reportgen.formula import Chain, Expression, Negative, Product, Ref, Sum, ids, signed, total, vocabulary
 
 
-@record
-class Pair:
+class Pair(Record):
     """Two discs on an arm, each with its centre and the point of its rim where it meets the other disc or the belt."""
 
     arm: int
@@ -132,8 +131,7 @@ def by_rims(parts: Parts) -> bool:
     return False
 
 
-@record
-class Node:
+class Node(Record):
     """The centre of a disc or a point of contact, with the point whose acceleration it shares along the racks.
 
     `shares` is the centre itself or a point of the rack; "" on the ground.  `value` is the acceleration along the racks

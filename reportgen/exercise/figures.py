@@ -5,11 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import nice_up
 from reportgen.drawing import Arc, Arrow, Circle, Content, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
@@ -48,8 +47,7 @@ ARROWS_APART = 3.2
 # --- a system in mm, and its scene ----------------------------------------------------------------
 
 
-@record
-class DrawnRail:
+class DrawnRail(Record):
     """A point guided along a direction; on the ground, its guide has walls and the block of a slider is drawn."""
 
     at: complex
@@ -57,23 +55,20 @@ class DrawnRail:
     on_ground: bool
 
 
-@record
-class DrawnDisc:
+class DrawnDisc(Record):
     centre: complex
     radius: float
     fixed: bool = False
 
 
-@record
-class DrawnGround:
+class DrawnGround(Record):
     """Ground that a disc rolls on, at the point of contact; `out` points into the ground."""
 
     at: complex
     out: complex
 
 
-@record
-class DrawnRotation:
+class DrawnRotation(Record):
     """The arrow of a body's rotation about a point; `sense` is positive anticlockwise."""
 
     at: complex
@@ -81,8 +76,7 @@ class DrawnRotation:
     symbol: Content
 
 
-@record
-class DrawnSystem:
+class DrawnSystem(Record):
     """A system to draw, in mm of paper about any origin.
 
     `bodies` are the outlines by the points of each; `joints` and `pivots` are names of points, other points are dots.
@@ -106,7 +100,7 @@ class DrawnSystem:
     rotations: Sequence[DrawnRotation] = ()
     axes: Sequence[DrawnAxis] = ()
     coordinates: bool = False
-    pen: Pen = field(default=style.ACTIVE)
+    pen: Pen = style.ACTIVE
 
 
 def scene_of(drawn: DrawnSystem, notes: Sequence[Content] = ()) -> Scene:

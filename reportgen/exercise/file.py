@@ -9,7 +9,7 @@ from pydantic import Field, TypeAdapter, ValidationError, model_validator
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Angle, Flag, Reader, Whole, fault, quantity
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Given
 from reportgen.catalogue.declared_loads import Name
 from reportgen.catalogue.linkage_file import MOST_NAMES
@@ -285,8 +285,7 @@ class FromRest(Part):
 GivenRate = Annotated[VelocityOf | AccelerationOf | OmegaOf | EpsilonOf | FromRest, Field(discriminator="type")]
 
 
-@record
-class Asked:
+class Asked(Record):
     """A quantity to be found: `v`, `a` of a point; `omega`, `eps`, `centre` of a body."""
 
     what: str
@@ -306,7 +305,6 @@ class Asked:
         return int(self.of)
 
 
-@record
 class AskedId(Reader):
     """Text of a requested quantity: v.B, a.B of a point; omega.2, eps.2, centre.2 of a body."""
 

@@ -14,7 +14,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.catalogue.vector_components import VectorComponents
 from reportgen.exercise import file
 from reportgen.exercise.chain_derivatives import ACCELERATION, RATES, VELOCITY, derivative
@@ -59,8 +59,7 @@ from reportgen.formula.evaluation import evaluate
 STRAIGHT = Number(180.0, unit="°")
 
 
-@record
-class MotionLaw:
+class MotionLaw(Record):
     """Position of a point (m) as a function of its body's angle φ: four complex coefficients."""
 
     fixed: complex

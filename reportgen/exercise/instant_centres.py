@@ -8,10 +8,10 @@ parallel and not perpendicular to the line of the points, the body is in transla
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.exercise import file
 from reportgen.exercise.point_positions import Geometry, parallel, perpendicular, unit
 from reportgen.exercise.rate_conditions import GROUND
@@ -24,8 +24,7 @@ SAME_PLACE = 1e-9
 LETTERS = "PQIK"
 
 
-@record
-class InstantCentre:
+class InstantCentre(Record):
     """The instant centre of a body: the rule that gives it, its name and position (m), and the points whose normals
     meet there.
 

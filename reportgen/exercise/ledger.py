@@ -8,9 +8,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
+from reportgen.base.records import replace
 from reportgen.exercise.acceleration_steps import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.derivation import Derivation, Quantities, Step
 from reportgen.exercise.drive_trains import by_rack, by_rims, by_train

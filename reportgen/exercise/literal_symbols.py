@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.assignment.fields import Quantity, Reader, fault
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Given, QuantityFault, read_quantity
 from reportgen.formula import Expression, Fraction, Negative, Number, Power, Product, Ref, Root, Sum, Symbol
 from reportgen.formula.evaluation import evaluate
@@ -38,15 +38,13 @@ Powers = tuple[float, float]
 NOTHING = Number(0.0)
 
 
-@record
 class Literal(Given):
     """A quantity stated by symbols."""
 
     formula: Expression = NOTHING
 
 
-@record
-class Substitution:
+class Substitution(Record):
     """Value of a symbol; with `put_in` False the answer stays an expression of the symbol."""
 
     given: Given
@@ -57,7 +55,6 @@ class Substitution:
 Symbols = Mapping[str, Substitution]
 
 
-@record
 class SymbolValue(Reader):
     """A quantity of any kind, or {drawn: 100 mm} for a value that stays a symbol in the answer."""
 
@@ -86,7 +83,6 @@ class SymbolValue(Reader):
         return {"anyOf": [text, drawn]}
 
 
-@record
 class SymbolName(Reader):
     """Name of a symbol: letters, then at most two digits: r, v1, omega."""
 
@@ -114,15 +110,13 @@ FORMULA = rf"^(?=.{{1,{LONGEST}}}$){_WITH_A_SYMBOL} *{_sums(MOST_NESTED)} *$"
 _FORMULA = re.compile(FORMULA)
 
 
-@record
-class Stated:
+class Stated(Record):
     """Text of a file with symbols, before it is parsed."""
 
     text: str
     symbols: Symbols
 
 
-@record
 class Told(Reader):
     """A quantity, as a number with its unit or as a formula of symbols."""
 

@@ -8,11 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.exercise.chain_derivatives import RATES, VELOCITY, RateFormulas, derivative
 from reportgen.exercise.closed_form import X_AXIS, closed_form
 from reportgen.exercise.derivation import Step, size_of

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Finding, Where
+from reportgen.base.records import replace
 from reportgen.base.units import Given
 from reportgen.exercise import file
 from reportgen.exercise import rate_conditions as on

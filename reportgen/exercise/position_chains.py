@@ -10,9 +10,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.exercise import file
 from reportgen.exercise.derivation import Derivation, angle
 from reportgen.exercise.instant_centres import SAME_PLACE
@@ -40,15 +40,13 @@ HALF_TURN = math.pi
 SAME_ANGLE = 1e-9
 
 
-@record
-class Turn:
+class Turn(Record):
     """The angle of a body; a rod that only keeps two points apart has a number that the file does not use."""
 
     body: int
 
 
-@record
-class SlideTravel:
+class SlideTravel(Record):
     """The travel of a point along a straight line, by the number of the line."""
 
     number: int
@@ -57,24 +55,21 @@ class SlideTravel:
 GeneralizedCoordinate = Turn | SlideTravel
 
 
-@record
-class Direction:
+class Direction(Record):
     """A direction that turns with a body, at `offset` (rad) from its φ; on the ground, from the x-axis."""
 
     body: int
     offset: float
 
 
-@record
-class CoordinateRate:
+class CoordinateRate(Record):
     """The derivative of a coordinate, or the speed of a point if that is not a coordinate."""
 
     of: GeneralizedCoordinate | str
     order: int
 
 
-@record
-class LoopVector:
+class LoopVector(Record):
     """A vector of a loop or of its derivative: a length along a direction turned by right angles.
 
     `slide` is the coordinate that the length represents; in a derivative, `rates` are further factors of the length.
@@ -91,8 +86,7 @@ class LoopVector:
         return replace(self, length=minus(self.length), value=-self.value)
 
 
-@record
-class Place:
+class Place(Record):
     """Position of a point: the coordinates of a fixed point and a chain of legs from there."""
 
     fixed: tuple[Expression, Expression] = (NOTHING, NOTHING)
@@ -102,8 +96,7 @@ class Place:
         return replace(self, legs=(*self.legs, *(leg for leg in legs if abs(leg.value) > SAME_PLACE or leg.slide)))
 
 
-@record
-class Closure:
+class Closure(Record):
     """A point reached by two chains; the loop runs outward along one and back along the other."""
 
     point: str
@@ -111,8 +104,7 @@ class Closure:
     back: Place
 
 
-@record
-class StraightPath:
+class StraightPath(Record):
     """A point that slides along a straight line: the point, its body, the body of the line and its unit direction."""
 
     point: str

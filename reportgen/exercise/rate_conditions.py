@@ -11,14 +11,13 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 GROUND = 0
 """The number of the body at rest, the ground."""
 
 
-@record
-class Rates:
+class Rates(Record):
     """The rates of a body: ω (rad/s) and v₀ (m/s) of its point at the origin, or ε (rad/s²) and a₀ (m/s²)."""
 
     turn: float
@@ -55,8 +54,7 @@ def no_drift(_: Velocities) -> float:
     return 0.0
 
 
-@record
-class Component:
+class Component(Record):
     """The component along the unit `direction` of the rate of a point (m) that moves with a body."""
 
     body: int
@@ -64,8 +62,7 @@ class Component:
     direction: complex
 
 
-@record
-class Condition:
+class Condition(Record):
     """Σ components + Σ factor · turn = value, by body; a value of None puts no condition on that rate.
 
     `name` is the name in the file of the joint or given quantity to which the condition belongs.

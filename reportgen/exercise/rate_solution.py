@@ -9,11 +9,12 @@ points, conflicts, and instant centres.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.exercise.rate_conditions import GROUND, STILL, Component, Condition, Rates, Velocities
 
 NEGLIGIBLE = 1e-9

@@ -5,10 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.placeholders import NO_LETTER
+from reportgen.base.records import replace
 from reportgen.base.template_access import view
 from reportgen.base.units import Given
 from reportgen.case.finished_document import finished

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.document import Equation, Inline, InlineMath, Inlines, Text, Value, listed
@@ -324,8 +324,7 @@ def lettered(formula: Expression) -> Expression:
 # --- axes: one number for each line, in the text as in the figures ---------------------------------
 
 
-@record
-class DrawnAxis:
+class DrawnAxis(Record):
     """An axis of projection towards `direction`, from `start` to `end` of its points (mm), which may coincide."""
 
     symbol: Symbol

@@ -6,7 +6,6 @@ import cmath
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -14,7 +13,7 @@ import numpy as np
 
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Fault, Location, NotOfferedError
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM, Language, QuantityFault, read_number, read_unit
 from reportgen.base.words import as_error, word
 from reportgen.case import Case, DriverMotion
@@ -47,8 +46,7 @@ def dense(assignment: Assignment, count: int = POINTS) -> Assignment:
     return replace(counted(assignment), parts=parts)
 
 
-@record
-class Measured:
+class Measured(Record):
     """A column of a table of measured values of one quantity.
 
     The `values` (SI) [N] belong to `x` [N]: an angle (rad) or a time (s).

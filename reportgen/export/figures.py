@@ -14,7 +14,7 @@ import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
 from reportgen.base.output_formats import chosen, names, rows
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, bounded
@@ -37,8 +37,7 @@ MOVING_DPI = 110
 """Dots per inch of animations."""
 
 
-@record
-class MovingFigure:
+class MovingFigure(Record):
     """A named animation: one pane of an animated panel."""
 
     name: str
@@ -74,8 +73,7 @@ class MovingFigure:
         )
 
 
-@record
-class FigureQuery:
+class FigureQuery(Record):
     """Selection of figures and their form: all without `names`; with `labels`, those of the first matching position.
 
     Animations also show `layers`; pictures have `dpi` dots per inch, the usual number for 0.

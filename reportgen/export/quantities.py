@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from reportgen.base.errors import NotOfferedError, UnknownNameError
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language
 from reportgen.base.words import unknown, word
 from reportgen.case import Case, DriverMotion
@@ -61,8 +61,7 @@ class QuantityArray(np.ndarray):
         return plain[()] if return_scalar else plain
 
 
-@record
-class CaseQuantity:
+class CaseQuantity(Record):
     """A quantity of a case, or of one of its parts."""
 
     id: str

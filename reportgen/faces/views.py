@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.document.template_rendering import NamedPoint
 from reportgen.formula import ids
@@ -16,8 +16,7 @@ from reportgen.report.topic_views import ViewHooks, always
 
 
 @view("lines", "ends")
-@record
-class WideSlider:
+class WideSlider(Record):
     """A slider with its face: its reaction's `digits`, its pin, the ids of the face's given ends.
 
     `lines` are the ids of the reaction and of its place, `ends` those of the reactions at both ends of a slider that

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import replace
 from reportgen.drawing import Content, Diagram, Item, Label, PlottedCurve, Polyline, Scene, style
 from reportgen.drawing.charts import Area, Plotted, plotted
 from reportgen.drawing.drawing_sheet import lettered

@@ -6,11 +6,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_access import view
 from reportgen.catalogue.topic_sections import sections_of
 from reportgen.document import Paragraph, Table, Value
@@ -148,8 +147,7 @@ def cycle_table(report: ReportContext, key: str, caption: str, head: Sequence[st
 
 
 @view()
-@record
-class Range:
+class Range(Record):
     """The least and the greatest value of a quantity over the cycle, with their positions."""
 
     least: Value

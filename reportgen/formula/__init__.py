@@ -12,23 +12,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 from functools import partial, reduce
 from operator import mul
 from typing import Any, Literal, cast
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import rounded
 
 
-class _Algebra:
+class _Algebra(Record):
     """The arithmetic operators.
 
     A sum or product merges only the terms of its left operand, so that parentheses are printed where they are written.
     A minus before a product or a fraction applies to the whole of it.
     """
 
-    __slots__ = ()
     __array_ufunc__ = None  # A NumPy number then leaves the operation to the expression.
 
     def __add__(self, other: Operand) -> Sum:
@@ -72,7 +70,6 @@ class _Algebra:
         return Call("abs", (_node(self),))
 
 
-@record
 class Symbol(_Algebra):
     """A printed symbol: base letter(s) with upright subscript and superscript.
 
@@ -87,7 +84,6 @@ class Symbol(_Algebra):
     value: float | None = None
 
 
-@record
 class Number(_Algebra):
     """A number as printed: `value` is in the printed `unit`, with `decimals` (None: exact, printed unchanged)."""
 
@@ -106,35 +102,30 @@ class Number(_Algebra):
         return 0.0 if self.decimals is None else 0.5 * 10.0**-self.decimals
 
 
-@record
 class Ref(_Algebra):
     """Another quantity of the ledger, by its id."""
 
     id: str
 
 
-@record
 class Sum(_Algebra):
     """A sum; a `Negative` term is printed with a minus."""
 
     terms: tuple[Expression, ...]
 
 
-@record
 class Product(_Algebra):
     """A product of factors, in printed order."""
 
     factors: tuple[Expression, ...]
 
 
-@record
 class Negative(_Algebra):
     """An expression with a minus before it."""
 
     of: Expression
 
 
-@record
 class Fraction(_Algebra):
     """A quotient of two expressions."""
 
@@ -142,7 +133,6 @@ class Fraction(_Algebra):
     bottom: Expression
 
 
-@record
 class Power(_Algebra):
     """A base raised to an exponent."""
 
@@ -150,14 +140,12 @@ class Power(_Algebra):
     exponent: Expression
 
 
-@record
 class Root(_Algebra):
     """A square root."""
 
     of: Expression
 
 
-@record
 class Call(_Algebra):
     """A function of `evaluation.FUNCTIONS`, by its name: sin, cos, …, or a construction of plane geometry."""
 
@@ -165,14 +153,12 @@ class Call(_Algebra):
     arguments: tuple[Expression, ...]
 
 
-@record
 class Matrix(_Algebra):
     """A matrix or column (rows of one entry) of a displayed equation; it has no single value."""
 
     rows: tuple[tuple[Expression, ...], ...]
 
 
-@record
 class Chain(_Algebra):
     """A worked line: formula = substitution = result.
 
@@ -184,8 +170,7 @@ class Chain(_Algebra):
     note: str = ""
 
 
-@record
-class Term:
+class Term(Record):
     """A vector of a vector equation and the known facts about it.
 
     `known` gives, in the order of the equation's `rows` (direction, sense, size), the text or expression printed below
@@ -197,7 +182,6 @@ class Term:
     sign: int = 1
 
 
-@record
 class VectorEquation(_Algebra):
     """Sides of a vector equation joined by "="; `rows` below each term show the known facts about it."""
 

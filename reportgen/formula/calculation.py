@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import Call, Expression, Number, Operand, Ref, Symbol, as_expression, refs, vocabulary, walk
 from reportgen.formula.evaluation import evaluate
 from reportgen.formula.vocabulary import KINDS, MAX_DIGITS, KeyChapter, QuantityKind
@@ -61,8 +61,7 @@ CONSTRUCTIONS = frozenset(
 """Functions that represent drawing and measuring: a definition with one of them is not printed as a formula."""
 
 
-@record
-class Family:
+class Family(Record):
     """One quantity at all positions.
 
     `values` are SI (complex for a point or vector of the plane): [N] over the positions, or [1] if they do not vary.

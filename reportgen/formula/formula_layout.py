@@ -8,13 +8,12 @@ here, too: a fraction of a sum becomes 1/denominator times the sum, which breaks
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import replace
 from itertools import repeat
 from typing import Literal
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of, unit_names
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language, by_power_of_ten, write
 from reportgen.formula import (
     Call,
@@ -53,8 +52,7 @@ a last one before 0."""
 # --- parts ----------------------------------------------------------------------------------------
 
 
-@record
-class Sign:
+class Sign(Record):
     """A sign between two parts, or before one."""
 
     of: str
@@ -68,8 +66,7 @@ class Sign:
         return f"{self.of} " if self.role == "separator" else f" {self.of} "
 
 
-@record
-class Written:
+class Written(Record):
     """A number as printed in the digits of a language, and its unit."""
 
     digits: str
@@ -85,38 +82,33 @@ class Written:
         return self.unit not in UNSPACED
 
 
-@record
-class MathRow:
+class MathRow(Record):
     """Parts side by side."""
 
     parts: tuple[Part, ...]
 
 
-@record
-class Raised:
+class Raised(Record):
     """A base with an exponent."""
 
     base: Part
     exponent: Part
 
 
-@record
-class Quotient:
+class Quotient(Record):
     """A fraction with a bar."""
 
     top: Part
     bottom: Part
 
 
-@record
-class Radical:
+class Radical(Record):
     """A square root."""
 
     of: Part
 
 
-@record
-class Fence:
+class Fence(Record):
     """A group that neighbouring signs treat as one piece; its delimiters are "" if it is clear without them."""
 
     left: Literal["(", "[", "|", ""]
@@ -124,8 +116,7 @@ class Fence:
     right: Literal[")", "]", "|", ""]
 
 
-@record
-class Function:
+class Function(Record):
     """A function before its argument, which is in a fence unless it is one letter.
 
     A symbol such as inv α, with a space between the name of a function and its argument, is one, too.
@@ -136,22 +127,19 @@ class Function:
     to: Part
 
 
-@record
-class Grid:
+class Grid(Record):
     """The entries of a matrix, by rows."""
 
     rows: tuple[tuple[Part, ...], ...]
 
 
-@record
-class Note:
+class Note(Record):
     """A reason, printed in parentheses behind a line."""
 
     text: str
 
 
-@record
-class Parenthesis:
+class Parenthesis(Record):
     """A parenthesis of a sum that continues over several lines; `tall` beside terms higher than a line."""
 
     of: Literal["(", ")"]
@@ -411,8 +399,7 @@ def short_end(row: Expression) -> bool:
 # --- vector equations -----------------------------------------------------------------------------
 
 
-@record
-class TermColumn:
+class TermColumn(Record):
     """A column of a vector equation: the signs before a term, the term, and its entries in the equation's rows."""
 
     signs: tuple[Sign, ...]

@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
+
+from reportgen.base.records import Record
 
 # --- one template makes the ids of a family and reads them ----------------------------------------
 # velocity = Name("v.{point}")
@@ -63,8 +64,7 @@ _MAY_BE_MISSING = re.compile(r"\[(.*?)\]")
 _POINT = re.compile(r"[A-Z]\d*")
 
 
-@dataclass(frozen=True)
-class Name:
+class Name(Record, dict=True):
     """A family of ids, as a template: `R.{joint}[.{part}]` is R.12 as well as R.12.t."""
 
     text: str

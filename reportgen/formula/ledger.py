@@ -15,13 +15,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.base.units import rounded
 from reportgen.formula import (
     Call,
@@ -50,8 +49,7 @@ Entered = Callable[[str, dict[str, np.ndarray]], None]
 """Callback after each quantity of an evaluation, with its id and all values so far (SI), [1], [N] or [cases, N]."""
 
 
-@record
-class PrintedQuantity:
+class PrintedQuantity(Record):
     """A family at one position, as printed: `value` in `unit` with `decimals`.
 
     `position` is None for a quantity with one value for all positions, `decimals` None for a value printed exactly, and
@@ -72,8 +70,7 @@ class PrintedQuantity:
         return Number(self.value, self.decimals, self.unit)
 
 
-@dataclass(frozen=True)
-class Ledger:
+class Ledger(Record, dict=True):
     """All families of a report.
 
     `positions` is the number N of positions. If values are rounded as printed (`formula.rounded_ledger`), `decimals`

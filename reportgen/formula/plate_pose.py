@@ -12,7 +12,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula.constructions import Value, cross
 
 EXACT = 1e-13
@@ -21,8 +21,7 @@ SAME = 1e-7
 """Two poses nearer than this, relative to the longest leg, are one; a pose is found with the square of it."""
 
 
-@record
-class Rows:
+class Rows(Record):
     """The equations of the pose: unit vectors along the legs, their moments about d (m), the misses of length (m)."""
 
     along: tuple[Value, Value, Value]

@@ -8,10 +8,10 @@ Discrete choices (senses, arms, branches) and zeros are taken from the unrounded
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import figure_decimals, rounded
 from reportgen.formula import Call, Expression, Negative, Ref, ids
 from reportgen.formula.calculation import ZERO, Family, is_short, is_typed, shortened

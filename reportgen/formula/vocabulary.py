@@ -11,22 +11,20 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from enum import StrEnum
 from functools import cache, lru_cache
 from importlib import import_module
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.topics import PACKAGE, topics
 from reportgen.formula import Symbol, ids
 from reportgen.formula.constructions import Value
 from reportgen.formula.ids import Name
 
 
-@record
-class QuantityKind:
+class QuantityKind(Record):
     """Printing rules of a kind of quantity: SI value = printed value × `scale`.
 
     `digits` are the significant figures of the largest computed value; `decimals`, if given, are used instead.
@@ -204,8 +202,7 @@ class KeyChapter(StrEnum):
     vars().update({name: name for name in topics()})
 
 
-@record
-class VocabularyRow:
+class VocabularyRow(Record):
     """A family of ids, or a single one.
 
     The index below the `letter` is the text `below`, else the word in the last place. Above it is the text `above`,

@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 MOST_STEPS = 40
 """Newton's method converges in ten steps or not at all."""
@@ -30,8 +30,7 @@ MOST_PATTERNS = 1024
 """Largest number of choices of sides that are tried: enough for all choices of ten faces."""
 
 
-@record
-class BearingEquations:
+class BearingEquations(Record):
     """The reactions (N) [T] that press joints at positions [N]: a = `base` [T, N], b = `slope` [T, J, N].
 
     `joint` [T] is the number of each reaction's joint, `guides` [T] is True for the reactions of guides.

@@ -5,12 +5,11 @@ crank.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.friction.joints import Friction, friction_of, relative_motion, solve_with_friction, with_friction
 from reportgen.machine import Joint
 from reportgen.machine.analysis import ROUNDING, Machine, analyse, breaks, motion_at, possible
@@ -66,8 +65,7 @@ class _LocksError(Exception):
     """The mechanism locks somewhere in the cycle."""
 
 
-@record
-class DeadZone:
+class DeadZone(Record):
     """Angles (rad) `before` and `behind` the dead centre at cycle angle `centre` within which a slider cannot move
     its crank.
     """

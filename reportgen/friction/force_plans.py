@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.derivation.load_entries import Edge, Polygon
 from reportgen.drawing.vector_plan import SAME_POINT, Plan, PlanPoint, PlanVector

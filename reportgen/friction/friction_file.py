@@ -6,7 +6,6 @@ from typing import Annotated, Any
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Coordinate, Decimal, Interval, Length, Offset, Quantity, Reader, Whole, quantity
-from reportgen.base.records import record
 from reportgen.base.units import Given
 
 TASKS = ("incline", "wedge", "screw", "belt", "band", "shoe")
@@ -14,7 +13,6 @@ HORIZONTAL = "horizontal"
 TOWARDS = quantity("deg", least=-89, most=89, tiny=1e-6)
 
 
-@record
 class Towards(Reader):
     """The angle of a force from the plane, or `horizontal` (None)."""
 

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import rounded, significant_decimals
 from reportgen.derivation.equation_sides import scheme, sides
 from reportgen.derivation.kinematic_entries import natural_sizes
@@ -35,8 +35,7 @@ MOST_ROUNDS = 12
 """Largest number of rounds that are entered; only positions close to locking need more."""
 
 
-@record
-class RubbingJoint:
+class RubbingJoint(Record):
     """A joint with friction, the digits of its reaction and the id of ρ or f."""
 
     joint: Joint

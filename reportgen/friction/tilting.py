@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing import Arc, Arrow, Item, Line, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
 from reportgen.drawing.drawing_description import arrow, direction, fact
@@ -27,8 +27,7 @@ DETAIL = 26.0
 """The length (mm) of the greatest force in a drawing of a guide."""
 
 
-@record
-class FaceForce:
+class FaceForce(Record):
     """The force of a guide (N) on an end of a slider's face: `across` the guide, and `along` it against the sliding.
 
     `number` is that of the end, 1 or 2; `at` is its place (m).
@@ -76,8 +75,7 @@ def any_tilts(report: ReportContext) -> bool:
 # --- drawings of a guide ----------------------------------------------------------------------------
 
 
-@record
-class Leaning:
+class Leaning(Record):
     """A force of a guide with its components across and along it (N), and its place (mm).
 
     `names` has the symbols of the normal force, the friction and the whole force, or of the whole force alone.

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.document import FIRST_COLUMN, Column, Inlines, Table, Text
 from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
@@ -45,8 +45,7 @@ ENLARGEMENTS = (2.0, 2.5, 4.0, 5.0, 10.0, 20.0, 25.0, 40.0, 50.0, 100.0, 200.0, 
 
 
 @view()
-@record
-class Rubbing:
+class Rubbing(Record):
     """A joint with friction for templates: the digits of its reaction, its pin or its slider."""
 
     of: RubbingJoint
@@ -202,8 +201,7 @@ def dead_rows(report: ReportContext) -> Iterator[Sequence[object]]:
 # --- figures --------------------------------------------------------------------------------------
 
 
-@record
-class JointForce:
+class JointForce(Record):
     """Force (N) in a joint with friction at a position, on the second link of the reaction's name, and its
     place (m).
     """

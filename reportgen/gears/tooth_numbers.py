@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_access import template_members
 from reportgen.formula.evaluation import inv
 from reportgen.gears import train_formulas as formulas
@@ -59,8 +59,7 @@ class Teeth(NamedTuple):
     z3: int
 
 
-@record
-class Demand:
+class Demand(Record):
     """A demand: a ratio u₁H within a relative tolerance, a number of satellites, limits of tooth numbers, and m/m₂.
 
     The tolerance applies to the ratio from the driving to the driven shaft: to u_H1 = 1/u₁H if the carrier drives.
@@ -89,8 +88,7 @@ class Demand:
         return missed
 
 
-@record
-class Train:
+class Train(Record):
     """Tooth numbers in a scheme, with their ratio and the quantities in the conditions."""
 
     scheme: str

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.case.design_case import DesignPage
 from reportgen.case.result_entries import ResultEntries

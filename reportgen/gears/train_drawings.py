@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arrow, Circle, Item, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.animation import (

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import Expression, Number, Product, Ref, Symbol, signed
 from reportgen.formula.evaluation import evaluate
 
@@ -18,8 +18,7 @@ WHEELS = ("1", "2", OTHER, "3")
 """Wheels in the order of their numbers of teeth."""
 
 
-@record
-class TrainScheme:
+class TrainScheme(Record):
     """Scheme of a train: flags of the inner wheels that mesh with satellites; a `single` satellite meshes with both."""
 
     inner: tuple[bool, bool]

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.invisible_text import Styles, first_of, looks_of
 from reportgen.handin.word_nodes import XmlNode
 
@@ -55,8 +55,7 @@ def covered_runs(tree: XmlNode, styles: Styles) -> Iterator[XmlNode]:
             )
 
 
-@record
-class _Reach:
+class _Reach(Record):
     """The vertical range (mm below the top of its paragraph) that an object covers, and its right end (mm)."""
 
     top: float

@@ -9,12 +9,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
-from reportgen.base.records import record
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
@@ -39,7 +39,6 @@ USUAL = (1.0, 10.0, 1000.0, 25.4)
 """Common drawing units (mm), which are tried if the unit that the file names gives no plans."""
 
 
-@record
 class DrawnLocation(Location):
     """The start of a vector in a drawing (`at`) and its right end (`right`), both in drawing units of `unit` mm.
 

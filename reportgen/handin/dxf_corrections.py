@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Location
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.dxf_lines import encoding_of
 from reportgen.handin.dxf_tags import PAPER, Tags, pairs
 from reportgen.workbook.zip_package import RefusedError
@@ -33,8 +33,7 @@ _LINKS = frozenset({102, 330, 360, 1000, 1001, 1002, 1003, 1005, 1070, 1071, 104
 """Codes that a copy of a layer omits, because they link to other objects."""
 
 
-@record
-class RedVector:
+class RedVector(Record):
     """The right vector from the start of the student's vector (drawing units), and the lines of text at its middle.
 
     Without an end, only the text is written.

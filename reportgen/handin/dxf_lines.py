@@ -10,13 +10,13 @@ import codecs
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from itertools import pairwise
 
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.handin.dxf_tags import MOST, Entities, Entity, read_entities
 from reportgen.workbook.zip_package import RefusedError
 
@@ -32,8 +32,7 @@ BARB = 0.1
 """Length of the strokes of an arrowhead that an entity draws itself, as a share of its line."""
 
 
-@record
-class DrawnText:
+class DrawnText(Record):
     """A text with its start or, depending on its alignment, its middle, and the height of its letters, in one unit.
 
     They are in drawing units when a file is read, in mm when plans are searched for.
@@ -108,8 +107,7 @@ def encoding_of(header: Mapping[bytes, bytes]) -> str:
 # --- blocks ---------------------------------------------------------------------------------------
 
 
-@record
-class Affine:
+class Affine(Record):
     """The map z → a z + b z̄ + c of points of any shape (drawing units); a and b are dimensionless."""
 
     a: complex = 1.0
@@ -124,8 +122,7 @@ MIRROR = Affine(0.0, -1.0)
 """The plane of an entity whose own z axis points away from the viewer."""
 
 
-@record
-class Insertion:
+class Insertion(Record):
     """An inserted block: its name, and a map to the drawing for each of its copies."""
 
     name: bytes
@@ -270,8 +267,7 @@ def _pieces(entities: list[Entity], encoding: str) -> Pieces:
     return Pieces(np.array(lines, dtype=complex).reshape(-1, 2), texts, insertions)
 
 
-@record
-class _Corner:
+class _Corner(Record):
     """A vertex of a polyline, the widths at both ends of the segment that begins there, and True if it is an arc."""
 
     at: complex

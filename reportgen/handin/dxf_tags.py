@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Location
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.workbook.zip_package import RefusedError
 
 LARGEST = 50_000_000
@@ -37,8 +37,7 @@ _FROZEN = 1
 Tags = list[tuple[int, bytes]]
 
 
-@record
-class Entity:
+class Entity(Record):
     """An entity: its type, its pairs in order, and the line of the file where it begins."""
 
     type: bytes

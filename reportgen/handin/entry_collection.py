@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import replace
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.handin import FileReading, agree, figures

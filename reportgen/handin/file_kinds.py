@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.case.answer_key import Key
@@ -45,8 +45,7 @@ LARGEST = 50_000_000
 """Largest size (bytes) of a file."""
 
 
-@record
-class FileKind:
+class FileKind(Record):
     """A kind of file: functions that read it for a key, find names in it, and write a marked copy.
 
     A student may have `several` files of one work; their copies have a {number} in their name.

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.arrowheads import arrowheads
 from reportgen.handin.line_set import Lines, close_pairs
 
@@ -42,8 +42,7 @@ def distinct(ends: np.ndarray) -> np.ndarray:
     return ends[kept]
 
 
-@record
-class _Run:
+class _Run(Record):
     """Pieces in sequence: the first and the last end (mm), and the inner ends as (piece, end)."""
 
     first: complex

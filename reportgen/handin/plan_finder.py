@@ -8,11 +8,12 @@ if the odds are `BY_CHANCE` against chance and `BEYOND_DOUBT` against every othe
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, fits, fitted, named
 from reportgen.handin.plan_labels import TITLE, Labels, names_of

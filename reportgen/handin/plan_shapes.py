@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import MM
 from reportgen.case import Case, MachineAnalysis
 from reportgen.derivation.kinematic_entries import What
@@ -25,8 +25,7 @@ PAIR = 2
 _PARTS = {"n": "n", "τ": "t", "k": "k", "r": "r"}
 
 
-@record
-class ShapeVector:
+class ShapeVector(Record):
     """A vector of a plan between two of its corners, with the ids of its length and, if it has one, its direction.
 
     A vector that is not `drawn` in the report, such as the whole relative acceleration, is optional.
@@ -71,8 +70,7 @@ class PlanShape:
         return self.corners[[vector.end for vector in self.vectors]]
 
 
-@record
-class SketchedVector:
+class SketchedVector(Record):
     """A vector of a plan between two corners, by their ids; otherwise like a `ShapeVector`."""
 
     length: str

@@ -7,9 +7,9 @@ original content is stored in the sheet, so that an edited sheet can be recognis
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from hashlib import sha256
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.marking.answer_sheet import (
     UNSETTLED,

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location
 from reportgen.base.files import cause, contents
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, word
 from reportgen.case import Case

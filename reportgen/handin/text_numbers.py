@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Iterable
 
 from reportgen.base.languages import decimal_mark, typed_units
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.typed_characters import SPACES
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.answer_key import KeyRow
@@ -38,8 +38,7 @@ _BRACES = re.compile(r"[{}]")
 _JOINED_UNIT = re.compile(r"\s*([/·*])\s*")
 
 
-@record
-class Marks:
+class Marks(Record):
     """The decimal mark of a text, and True if it uses both marks."""
 
     decimal: DecimalMark

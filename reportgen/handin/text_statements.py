@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.symbol_matching import Symbols, bare
 from reportgen.handin.text_numbers import NUMBER, UNIT
 from reportgen.handin.word_patterns import HAN, any_of, label_of, labelled_position
@@ -78,8 +78,7 @@ _GIVEN = re.compile(rf"\s*{NUMBER}\s*(?:{UNIT}(?![\w/])|[;÷±…]|\s[^\W\d_]{{2
 _FUNCTIONS = frozenset({"sin", "cos", "tan", "tg", "cotg", "arctan", "arcsin", "arccos", "arctg", "ln", "π", "pi", "x"})
 
 
-@record
-class Statement:
+class Statement(Record):
     """A symbol and the text up to the next one.
 
     `lead` is the text before it from the end of the previous clause, `front` that from the last “=”. `text` is the text
@@ -105,8 +104,7 @@ class Statement:
         return list(_clauses(self.text))
 
 
-@record
-class StatedValue:
+class StatedValue(Record):
     """The number of a statement: its text and unit as written, its index in the line, the words after it."""
 
     number: str

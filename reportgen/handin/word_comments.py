@@ -10,7 +10,7 @@ import zipfile
 from collections.abc import Iterator, Mapping, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.word_file import TEMPLATE, WordFile
 from reportgen.handin.word_nodes import XmlNode, parse
 
@@ -27,8 +27,7 @@ _PACKED = (".png", ".jpg", ".jpeg", ".gif", ".mp4")
 _MOMENT = (1980, 1, 1, 0, 0, 0)
 
 
-@record
-class MarginNote:
+class MarginNote(Record):
     """A text for the margin, at the element of the main text with this `XmlNode.number`.
 
     Without an element, the comment is at the head of the report.
@@ -38,8 +37,7 @@ class MarginNote:
     element: int | None = None
 
 
-@record
-class _Change:
+class _Change(Record):
     """Bytes that replace the bytes of a part from `start` to `end`."""
 
     start: int

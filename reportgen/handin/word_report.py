@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from dataclasses import replace
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading, agree
 from reportgen.handin.word_comments import MarginNote, with_comments

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import QuantityFault
 from reportgen.case.answer_key import KeyRow
 from reportgen.handin import text_statements as said
@@ -40,8 +40,7 @@ Statements = Callable[[TextLine, str | None], None]
 TextCells = Sequence[Sequence[TextCell]]
 
 
-@record
-class _Quantity:
+class _Quantity(Record):
     """A cell that names a quantity: its rows and its unit; None for a unit that is not understood."""
 
     rows: tuple[KeyRow, ...]

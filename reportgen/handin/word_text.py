@@ -11,7 +11,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from reportgen.base.errors import Location
-from reportgen.base.records import record
 from reportgen.base.typed_characters import DOTS, MINUSES, UNSEEN
 from reportgen.handin.word_nodes import XmlNode
 
@@ -23,7 +22,6 @@ LONGEST = 20_000
 """Largest number of characters of a line that is read."""
 
 
-@record
 class WordLocation(Location):
     """A paragraph of a Word file, counted from 1, and the number of the element with the value."""
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.handin.line_repair import goes_on
 from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_finder import FoundPlans
@@ -133,8 +133,7 @@ class _Search:
         return drawn[0] if apart <= 2 * self.lines.reach else None
 
 
-@record
-class _Begun:
+class _Begun(Record):
     """A line as a vector from its start (mm), and True if it has an arrowhead at its end."""
 
     number: int

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 DyadKind = Literal["RRR", "RRP", "RPR", "PRP", "RPP"]
 
@@ -19,8 +19,7 @@ GROUND = 0
 DRIVER = 1
 
 
-@record
-class Guide:
+class Guide(Record):
     """A straight guide fixed in the frame of `link`: a line through `at` (m) in the direction `angle` (rad)."""
 
     at: complex
@@ -28,8 +27,7 @@ class Guide:
     link: int = GROUND
 
 
-@record
-class Crank:
+class Crank(Record):
     """The rotating driver, a crank of the `length` (m): link 1 turns about the ground point `centre`; its frame points
     to `pin`.
     """
@@ -39,16 +37,14 @@ class Crank:
     length: float
 
 
-@record
-class SlidingDriver:
+class SlidingDriver(Record):
     """The sliding driver: link 1 moves along `guide`; its `pin` is at the guide's `at` plus s·e^{i angle}, s in m."""
 
     pin: str
     guide: Guide
 
 
-@record
-class LinkPoint:
+class LinkPoint(Record):
     """A named point at `local` (m) in a moving link's frame: a mass centre, coupler point or pin of a later dyad."""
 
     name: str
@@ -56,8 +52,7 @@ class LinkPoint:
     local: complex
 
 
-@record
-class Dyad:
+class Dyad(Record):
     """An Assur group of class II: links i, j = `links`, two outer joints and the inner joint `middle`.
 
     ==== ============ ============== ============ ==============================================
@@ -95,8 +90,7 @@ class Dyad:
     slide_angle: float = 0.0
 
 
-@record
-class TriadLeg:
+class TriadLeg(Record):
     """A rod of a triad: `link` of the `length` (m), from the placed point `outer` to the joint `inner` on the plate."""
 
     link: int
@@ -105,8 +99,7 @@ class TriadLeg:
     length: float
 
 
-@record
-class Triad:
+class Triad(Record):
     """An Assur group of class III (3RRR): a ternary link, the `plate`, on three legs.
 
     `at` are the places (m) of the second and third inner joint in the plate's axes, whose origin is the first inner
@@ -143,8 +136,7 @@ class Triad:
 Group = Dyad | Triad
 
 
-@record
-class Inertia:
+class Inertia(Record):
     """Mass, mass centre (a named point of the link) and moment of inertia about it; kg, kg·m²."""
 
     link: int
@@ -153,8 +145,7 @@ class Inertia:
     moment: float = 0.0
 
 
-@record
-class Linkage:
+class Linkage(Record):
     """A whole mechanism.
 
     `ground` gives the fixed points (m) and `points` further points on moving links; the driver and the groups, in the
@@ -213,8 +204,7 @@ def under(name: str, link: int, taken: Collection[str]) -> str:
 # --- joints and freedom ---------------------------------------------------------------------------
 
 
-@record
-class Joint:
+class Joint(Record):
     """A lower pair: "R" revolute or "P" prismatic, between `links` at the named `point`.
 
     In a prismatic joint the first link has the guide and the second slides; in a revolute one the
@@ -227,8 +217,7 @@ class Joint:
     group: tuple[int, ...] = ()
 
 
-@record
-class Mobility:
+class Mobility(Record):
     """W = 3n − (2t + c) + r − s: n moving links, t lower and c higher pairs, r passive constraints, s
     redundant freedoms; with the joints, the groups and the mechanism's class.
     """

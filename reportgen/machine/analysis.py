@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property, partial
 from string import ascii_lowercase
 from typing import Any, TypeVar, cast
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.formula import Chain, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Linkage
@@ -26,8 +25,7 @@ Derived = TypeVar("Derived")
 Subject = TypeVar("Subject")
 
 
-@record
-class GasState:
+class GasState(Record):
     """The gas in one cylinder over positions [N]: cycle angle (rad), s/H, stroke number 0…3, gauge pressure (Pa)."""
 
     piston: Piston
@@ -37,8 +35,7 @@ class GasState:
     pressure: np.ndarray
 
 
-@dataclass(frozen=True)
-class Analysis:
+class Analysis(Record, dict=True):
     """Everything computed for a machine at its cycle angles [N] (rad; 0 at position 1, growing with the rotation)."""
 
     machine: Machine
@@ -52,9 +49,10 @@ class Analysis:
     """Balancing torque [N] by equilibrium of the driver (N·m, anticlockwise positive); the force (N) on a slide."""
     torque_by_work: np.ndarray
     """The same by virtual work; shares no code with `torque`."""
-    _derived: dict[Callable[[Analysis], object], object] = field(
-        default_factory=dict, init=False, repr=False, compare=False
-    )
+
+    @cached_property
+    def _derived(self) -> dict[Callable[[Analysis], object], object]:
+        return {}
 
     @property
     def loads(self) -> tuple[Load, ...]:
@@ -79,8 +77,7 @@ class Analysis:
         return summarise(self.machine)
 
 
-@record
-class Summary:
+class Summary(Record):
     """The cycle as a whole, from continuous quadrature: mean torque (N·m), power (W), work of the loads (J).
 
     `extremes` are (cycle angle in rad, torque) of the least and the greatest torque, to a thousandth of a degree. A
@@ -271,8 +268,7 @@ def no_formulas(q: Calculation) -> None:
     """Enter nothing: the default for a machine without closed formulas."""
 
 
-@record
-class ClosedFormulas:
+class ClosedFormulas(Record):
     """The closed formulas of a machine: `write` enters them in the calculation after the plans.
 
     `compared` are pairs of a plan's quantity and its closed formula, compared in the report; `equations` are those
@@ -284,8 +280,7 @@ class ClosedFormulas:
     equations: Mapping[str, tuple[Chain, ...]] = field(default_factory=dict)
 
 
-@record
-class Machine:
+class Machine(Record, dict=True):
     """A mechanism with its drive, its loads and the outline of its report.
 
     A turn has `count` positions, numbered from the driver's coordinate `start` (rad, or m of a slide) in the direction
@@ -320,8 +315,6 @@ class Machine:
     """The subjects of its topics, by the names of the topics."""
     beside: tuple[str, ...] = ()
     """The names of the loads that topics bring."""
-    results: dict[str, object] = field(default_factory=dict, init=False, repr=False, compare=False)
-    """Results of topics that others have requested; each is computed once."""
     places: tuple[float, ...] = ()
     """Cycle angles (rad) of the positions of one turn; if empty, they are evenly spaced from 0."""
     labels: tuple[str, ...] = ()
@@ -340,6 +333,11 @@ class Machine:
     """Values besides quantities that the templates of its kind may name."""
     outlined: Callable[[bool, bool, Collection[str]], tuple[str, ...]] | None = None
     """Function that returns its outline with or without masses, with or without loads, with other topics."""
+
+    @cached_property
+    def results(self) -> dict[str, object]:
+        """Results of topics that others have requested; each is computed once."""
+        return {}
 
     def topic(self, name: str, of: type[Subject]) -> Subject | None:
         """Return the subject of a topic, None if the machine does not have the topic."""

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 SAME_ANGLE = 1e-9
 """Angles nearer than this (rad) count as one angle."""
 
 
-@record
-class CycleTorque:
+class CycleTorque(Record):
     """Legendre polynomials between rising cycle angles `edges` [n + 1] (rad), by their `coefficients` [n, k] (N·m)."""
 
     edges: Floats

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import ids
 from reportgen.machine import DRIVER, GROUND, Joint, Linkage, joints
 from reportgen.machine.group_equilibrium import NO_FORCE, DyadEquilibrium, TriadEquilibrium, Wrench, equilibrium_of
@@ -19,8 +19,7 @@ from reportgen.machine.kinematics import Motion
 from reportgen.machine.rigid_motion import cross, dot, solve2
 
 
-@record
-class Load:
+class Load(Record):
     """A force (N) at a point (m) of a link, and a couple (N·m); arrays over positions [N]."""
 
     name: str
@@ -119,8 +118,7 @@ def virtual_work_torque(linkage: Linkage, motion: Motion, loads: Sequence[Load])
     return -power / motion.rate
 
 
-@record
-class Reaction:
+class Reaction(Record):
     """The force of one link on another (N) [N] and, in a guide, its moment (N·m) [N] about the joint's point.
 
     `point` (m) [N] is the place of a revolute joint; in a guide it is where the single resultant crosses the guide's
@@ -132,8 +130,7 @@ class Reaction:
     moment: Floats
 
 
-@record
-class Forces:
+class Forces(Record):
     """Reactions "R12" (link 1 on link 2) and "R21" for every joint, and the torque or force that balances the driver.
 
     `torque` [N] is the torque on the crank (N·m), or for a sliding driver the force along its guide (N).
@@ -156,8 +153,7 @@ def solve_forces(linkage: Linkage, motion: Motion, loads: Sequence[Load]) -> For
     return Equilibrium.of(linkage, motion).under(loads)
 
 
-@record
-class Equilibrium:
+class Equilibrium(Record):
     """The equations of equilibrium of a linkage at the positions of a motion; `under` solves them for any loads."""
 
     motion: Motion

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from itertools import pairwise
 from typing import Literal, get_args
 
@@ -17,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.formula import Expression, Fraction, Symbol
 from reportgen.machine.quadrature import gauss
 
@@ -58,8 +57,7 @@ def _within(cycle_angle: ArrayLike) -> Floats:
     return np.maximum(turned, 0.0)
 
 
-@record
-class Tabled:
+class Tabled(Record):
     """A table as given: sizes (SI) at nodes, in a row for each stroke or in one for the whole cycle.
 
     `over` is the symbol of the nodes' quantity, `kind` its kind.
@@ -71,8 +69,7 @@ class Tabled:
     rows: tuple[tuple[float, ...], ...]
 
 
-@record
-class Bracket:
+class Bracket(Record):
     """Adjacent nodes of a table on both sides of the places `at`, with their pressures (Pa); all arrays have shape [N].
 
     `kind` is the kind of quantity of the nodes: the "ratio" s/H, the "angle" of the cycle, or a "length", the travel.
@@ -121,8 +118,7 @@ Branch = tuple[tuple[float, ...], tuple[float, ...]]
 """The line of a stroke in a diagram: fractions s/H and the pressures (Pa) there."""
 
 
-@record
-class StrokeIndicator:
+class StrokeIndicator(Record):
     """Four rows of pressure (Pa) over the same fractions s/H, which rise from 0 to 1; linear between.
 
     Raises `ValueError` for rows of other lengths or fractions that do not rise from 0 to 1.
@@ -196,8 +192,7 @@ class StrokeIndicator:
         return float(area * stroke * np.dot(OUTWARD, means))
 
 
-@record
-class AngleIndicator:
+class AngleIndicator(Record):
     """Pressures (Pa) at cycle angles (rad) that rise from 0 to 4π; linear between.
 
     Raises `ValueError` for unequal lengths or angles that do not rise from 0 to 4π.

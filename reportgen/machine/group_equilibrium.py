@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.machine import Dyad, Group, Joint, Triad
 from reportgen.machine.kinematics import Motion
 from reportgen.machine.rigid_motion import cross
@@ -62,8 +62,7 @@ def _reach(joints: Iterable[Joint], pole: Complexes, motion: Motion) -> float:
 # --- groups of class II ---------------------------------------------------------------------------
 
 
-@record
-class _Inner:
+class _Inner(Record):
     """The inner joint of a dyad, at the `pole` of its moments.
 
     It divides a wrench in two: the `free` component, which it cannot transmit, and the two components that it holds,
@@ -83,8 +82,7 @@ class _Inner:
         return turned.real, turned.imag + 1j * (moment / self.length)
 
 
-@record
-class _Outer:
+class _Outer(Record):
     """An outer joint of a dyad, whose two unknowns x and y are one complex number x + iy [N].
 
     In a revolute joint it is the force (N); in a guide, x is the force across it (N) and y·l the couple (N·m).
@@ -124,8 +122,7 @@ class _Outer:
             return cls(joint, at, direction, inner.length, z / size**2, 1j * z / size)
 
 
-@record
-class DyadEquilibrium:
+class DyadEquilibrium(Record):
     """The equations of a group of class II of any kind.
 
     The component that the inner joint lets through gives one unknown of each outer joint from the loads on its link.
@@ -196,8 +193,7 @@ def _resultant(wrenches: Sequence[Wrench], pole: Complexes) -> tuple[Complexes, 
 # --- groups of class III --------------------------------------------------------------------------
 
 
-@record
-class TriadEquilibrium:
+class TriadEquilibrium(Record):
     """The twelve equations of a group of class III, solved in one batch.
 
     Rows: ΣF_x, ΣF_y, ΣM/l about the first inner joint, link by link; columns: two unknowns of each joint.  The length l

@@ -8,7 +8,6 @@ loops; positions that cannot be assembled are nan.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from functools import lru_cache
 from typing import TypeVar
 
@@ -16,7 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, astuple
 from reportgen.formula.constructions import SquareRoot, along_line, circle_circle
 from reportgen.machine import (
     DRIVER,
@@ -47,8 +46,7 @@ RODS: Mapping[DyadKind, int] = {"RRR": 2, "RRP": 1, "RPR": 0, "PRP": 0, "RPP": 0
 # --- groups ---------------------------------------------------------------------------------------
 
 
-@record
-class Assembled:
+class Assembled(Record):
     """A group in motion: its middle point, its two links with their frames' origins, its slides."""
 
     middle: PointMotion
@@ -186,8 +184,7 @@ Places = NDArray[np.int64] | slice
 Arrays = TypeVar("Arrays", LinkMotion, PointMotion, SlideMotion)
 
 
-@record
-class Motion:
+class Motion(Record):
     """The motion of every link, named point and slide over positions [N].
 
     `driver` is the crank's angle (rad) or the slide's coordinate (m), `rate` its rate at each position [N].
@@ -404,7 +401,7 @@ class _State:
 def _take(motion: Arrays, kept: Places) -> Arrays:
     if isinstance(kept, slice):
         return motion
-    return type(motion)(*(getattr(motion, field.name)[kept] for field in fields(motion)))
+    return type(motion)(*(values[kept] for values in astuple(motion)))
 
 
 def _continuous(angle: Floats) -> Floats:

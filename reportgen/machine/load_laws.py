@@ -8,16 +8,15 @@ its two dead centres. A table of one turn is repeated to fill a cycle of two tur
 from __future__ import annotations
 
 import math
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from collections.abc import Callable, Iterable
-from dataclasses import field
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import AbstractRecord, Record
 from reportgen.formula import Expression, Symbol, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine.gas_pressure import AngleIndicator, Bracket, IndicatorTable, StrokeIndicator, Tabled, crossings
@@ -39,8 +38,7 @@ MotionAt = Callable[[Floats], Motion]
 """Function that returns the machine's motion at rising cycle angles [N] (rad)."""
 
 
-@record
-class Stroke:
+class Stroke(Record):
     """The travel of the slider `link` between its dead centres; the link `rod` joins its `pin` to `crank_pin`.
 
     `top` and `bottom` are the pin's places (m) at the dead centres, `top_angle` and `bottom_angle` the driver's turn
@@ -98,13 +96,13 @@ class Stroke:
 # --- laws ------------------------------------------------------------------------------------------
 
 
-class Law(ABC):
+class Law(AbstractRecord):
     """Size (N or N·m) of a load over the machine's cycle angles (0 at position 1), with the data to describe it.
 
     Code that describes a load asks its law through this interface and does not test the law's class.
     """
 
-    kind: Literal["constant", "opposing", "tabled", "cutting", "spring"]
+    kind: ClassVar[Literal["constant", "opposing", "tabled", "cutting", "spring"]]
     """Behaviour of the load: constant, always opposing the motion, given by a table, cutting (acts while a tool
     cuts), or proportional to the stretch of a spring.
     """
@@ -164,7 +162,6 @@ class Law(ABC):
         return None
 
 
-@record
 class TableLaw(Law):
     """A table interpolated by a slider's own cycle angle and s/H.
 
@@ -212,11 +209,10 @@ class TableLaw(Law):
         return self.course
 
 
-@record
-class GasLaw(TableLaw):
+class GasLaw(TableLaw, kw_only=True):
     """The gas on a piston: the pressure p (Pa) in the table times the piston's area F (m²), P = p F."""
 
-    area: float = field(kw_only=True)
+    area: float
 
     def value(self, angle: Floats, motion: Motion) -> Floats:
         return self.area * self.reading(angle, motion)
@@ -230,7 +226,6 @@ class GasLaw(TableLaw):
         return None if p is None else p * q["F"]
 
 
-@record
 class ListedLaw(Law):
     """`values` (N or N·m) at `nodes`, linear between them; subclasses define the quantity of the nodes."""
 
@@ -247,7 +242,6 @@ class ListedLaw(Law):
         return len({*self.values}) == 1
 
 
-@record
 class AngleLaw(ListedLaw):
     """Values over cycle angles (rad) from 0 to the end of the cycle; there the last one is followed by the first."""
 
@@ -269,7 +263,6 @@ class AngleLaw(ListedLaw):
         return Tabled(Symbol("φ"), "angle", self.nodes, (self.values,))
 
 
-@record
 class TravelLaw(ListedLaw):
     """Values over the travel (m) of a sliding driver from its start; the whole travel `span` (m) is not a cycle."""
 
@@ -290,7 +283,6 @@ class TravelLaw(ListedLaw):
         return Tabled(Symbol("s"), "segment", self.nodes, (self.values,))
 
 
-@record
 class CuttingLaw(Law):
     """The `force` (N) on a ram while the tool cuts: on the stroke of the ram's `course` that begins at the top.
 
@@ -322,7 +314,6 @@ class CuttingLaw(Law):
         return (self.force,)
 
 
-@record
 class ConstantLaw(Law):
     """The same size at every position."""
 
@@ -344,7 +335,6 @@ class ConstantLaw(Law):
         return True
 
 
-@record
 class Opposing(Law):
     """−`size`·sgn(rate), the sign of the rate changing at the cycle angles `reversals` of one turn.
 
@@ -368,7 +358,6 @@ class Opposing(Law):
         return (self.size,)
 
 
-@record
 class Resistance(Law):
     """−`size`·sgn(rate) over the travel of a sliding driver, which does not return to its start."""
 

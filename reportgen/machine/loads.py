@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Callable, Iterable
-from dataclasses import asdict
 
 import numpy as np
 
 from reportgen.assignment.common import Positions
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record, asdict
 from reportgen.formula import ids
 from reportgen.machine import GROUND, Dyad, Guide, Linkage
 from reportgen.machine.force_analysis import Load
@@ -118,7 +117,6 @@ def course(linkage: Linkage, link: int, motion_at: MotionAt, turns: int = 1, top
 # --- forces and torques -----------------------------------------------------------------------------
 
 
-@record
 class Piston(Stroke):
     """A piston and the gas on it; its cycle angle counts from its top at the start of intake.
 
@@ -158,8 +156,7 @@ def fixed(direction: complex) -> Direction:
     return lambda motion: np.full(motion.driver.shape, direction, dtype=np.complex128)
 
 
-@record
-class Applied:
+class Applied(Record):
     """A force P e that is neither weight nor inertia: its law P times the unit vector e along it, at `point`."""
 
     name: str
@@ -174,8 +171,7 @@ class Applied:
         return Load(self.name, self.link, force, motion.points[self.point].p, np.zeros_like(angle))
 
 
-@record
-class Torque:
+class Torque(Record):
     """A torque on a link other than an inertia couple: its law (N·m), anticlockwise positive."""
 
     name: str
@@ -193,8 +189,7 @@ def gas_forces(pistons: Iterable[Piston]) -> tuple[Applied, ...]:
     return tuple(Applied(piston.name, piston.link, piston.pin, fixed(piston.inward), piston.law) for piston in pistons)
 
 
-@record
-class LoadsByKind:
+class LoadsByKind(Record):
     """The loads of a file: forces and torques that act, and the names of those that are zero throughout."""
 
     applied: tuple[Applied, ...]

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.machine import GROUND
 
 SINGULAR = 1e-5
@@ -50,8 +50,7 @@ def solve2(u: Complexes | complex, w: Complexes | complex, rhs: Complexes | comp
 # --- motion ---------------------------------------------------------------------------------------
 
 
-@record
-class LinkMotion:
+class LinkMotion(Record):
     """Angle (rad), angular velocity (rad/s) and acceleration (rad/s²) of a link, each [N]."""
 
     angle: Floats
@@ -59,8 +58,7 @@ class LinkMotion:
     epsilon: Floats
 
 
-@record
-class PointMotion:
+class PointMotion(Record):
     """Position (m), velocity (m/s) and acceleration (m/s²) of a point, complex [N]."""
 
     p: Complexes
@@ -68,8 +66,7 @@ class PointMotion:
     a: Complexes
 
 
-@record
-class SlideMotion:
+class SlideMotion(Record):
     """Relative motion in a prismatic joint: s (m) along the unit vector `direction`, ṡ (m/s) and s̈ (m/s²), each [N]."""
 
     s: Floats
@@ -78,8 +75,7 @@ class SlideMotion:
     direction: Complexes
 
 
-@record
-class Rail:
+class Rail(Record):
     """A guide as it moves: its point `at`, its unit `direction` [N], and the motion of the link that carries it."""
 
     link: int

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 
 if TYPE_CHECKING:
@@ -21,8 +21,7 @@ if TYPE_CHECKING:
 Result = TypeVar("Result", covariant=True)
 
 
-@record
-class SharedResult(Generic[Result]):
+class SharedResult(Record, Generic[Result]):
     """A result by its name."""
 
     name: str
@@ -41,16 +40,14 @@ class SharedResult(Generic[Result]):
         return None
 
 
-@record
-class Provision(Generic[Result]):
+class Provision(Record, Generic[Result]):
     """A result that a topic provides, and the function that computes it for a machine."""
 
     result: SharedResult[Result]
     compute: Callable[[Machine], Result | None]
 
 
-@record
-class PhysicsHooks:
+class PhysicsHooks(Record):
     """The results that a topic provides."""
 
     provides: tuple[Provision[object], ...] = ()

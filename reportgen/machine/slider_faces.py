@@ -13,11 +13,10 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 
-@record
-class Faces:
+class Faces(Record):
     """The ends x₁ < x₂ (m) of a slider's face from its pin along the guide, and how far (m) it lies below the pin."""
 
     first: float

@@ -5,14 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import Ref, ids
 from reportgen.formula.calculation import Calculation
 from reportgen.machine.kinematics import Motion
 
 
-@record
-class Anchor:
+class Anchor(Record):
     """An end of a spring: a named point, or a place (m) of the frame that has no name."""
 
     name: str = ""
@@ -30,8 +29,7 @@ class Anchor:
         return q.find(id) or q.give(id, self.place, id, "length", hidden=True)
 
 
-@record
-class Coil:
+class Coil(Record):
     """A spring between two ends, by its number.
 
     A `wound` spring is coiled about its first end, a pin of the frame, and acts on the line to its second end.

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula.constructions import Value, circle_circle, cross, dot
 from reportgen.formula.plate_pose import EXACT, SAME, Rows, refined_pose
 from reportgen.machine import Triad
@@ -74,8 +74,7 @@ def _refined(triad: Triad, outer: Sequence[complex], d: complex, turn: complex) 
 # --- all assembly modes ---------------------------------------------------------------------------
 
 
-@record
-class Pose:
+class Pose(Record):
     """A pose of the plate: the place `d` (m) of its first inner joint, the direction `turn` = e^{iφ} of its axes."""
 
     d: complex
@@ -137,8 +136,7 @@ Outer = Callable[[Floats], tuple[Complexes, Complexes]]
 """Places (m) and rates (m per unit of the driver's coordinate) of the outer joints, [3, N], at its coordinates [N]."""
 
 
-@record
-class ModeCourse:
+class ModeCourse(Record):
     """An assembly mode over the driver's travel: poses with their rates at rising coordinates `driver` [K].
 
     It ends before the travel does where the group comes to a dead point or where its outer joints do not exist. K is 0
@@ -234,8 +232,7 @@ PoseAnchor = tuple[float, complex, complex, complex, float, float]
 """The driver's coordinate, d, e^{iφ}, their rates and the determinant."""
 
 
-@record
-class _Walk:
+class _Walk(Record):
     """Follows an assembly mode from anchor to anchor: prediction by the rates, correction by Newton's iteration."""
 
     triad: Triad
@@ -345,8 +342,7 @@ PAIRS = ((0, 1, 2), (1, 2, 0), (2, 0, 1))
 """Two legs whose lines meet in a special point, and the third leg."""
 
 
-@record
-class AssembledTriad:
+class AssembledTriad(Record):
     """A triad in motion: its inner joints, its links, and the origins of their frames."""
 
     points: dict[str, PointMotion]

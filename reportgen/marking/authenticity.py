@@ -15,11 +15,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate

@@ -6,12 +6,11 @@ In the coursework, ids are prefixed with the part's name; the part itself uses t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.base.words import as_error
 from reportgen.base.yaml_source import read_source
@@ -23,8 +22,7 @@ from reportgen.marking.marking_policy import Policy
 from reportgen.marking.marking_scheme import MarkingScheme
 
 
-@record
-class PartSubmission:
+class PartSubmission(Record):
     """The share of a sheet that belongs to one part: its scheme, values and classmates, by the part's own ids."""
 
     part: PartOfKey

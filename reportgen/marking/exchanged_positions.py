@@ -8,10 +8,9 @@ follow after the exchange is undone. Values that are then still wrong are treate
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import combinations
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.marking.marking_data import Cells, Marked, Notice, Place, Submission, Verdict
 from reportgen.marking.marking_scheme import MarkingScheme
 
@@ -30,8 +29,7 @@ APART = 3.0
 """Number of tolerances by which the key's values must differ for a value to distinguish two positions."""
 
 
-@record
-class Exchange:
+class Exchange(Record):
     """Two exchanged positions: the ids of the rows whose values were exchanged, and the distinguishing places.
 
     A distinguishing place has a value, and the key's value at the other position differs from its own.

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words
@@ -24,8 +24,7 @@ LEAST = 10
 """Smallest number of students for a correlation: with fewer, 0.6 may be chance (1 in 20)."""
 
 
-@record
-class Item:
+class Item(Record):
     """Cells of a class under one name, with their statistics.
 
     These are the number of students asked, the share of the points that they earned, its correlation with the rest of

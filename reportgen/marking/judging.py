@@ -10,11 +10,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case import Case
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Location, Problem
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.case.answer_key import Key
 from reportgen.document import Inlines
 
@@ -15,8 +15,7 @@ Place = tuple[str, int]
 """A quantity's id and a position from 1; 0 for a quantity that is the same at all positions."""
 
 
-@record
-class Answer:
+class Answer(Record):
     """A student's value of one cell in the row's printed unit, with its location."""
 
     value: float
@@ -24,8 +23,7 @@ class Answer:
     location: Location
 
 
-@record
-class ReadOff:
+class ReadOff(Record):
     """The reading of a length or a direction from a drawing that is `times` as large as the report's.
 
     A length is given as the report draws it. `error` is its largest error. `own` is the value of the plan that was
@@ -106,8 +104,7 @@ OPEN = frozenset({Verdict.unreadable, Verdict.unread})
 """Verdicts on entries that may be right or wrong, because they could not be read."""
 
 
-@record
-class SheetValues:
+class SheetValues(Record):
     """The values of one cell in the units of the sheet; lengths are as drawn at the student's own scale."""
 
     given: float | None
@@ -120,8 +117,7 @@ class SheetValues:
         return self.given is not None and abs(self.given - value) <= band
 
 
-@record
-class Marked:
+class Marked(Record):
     """The verdict on one cell; values are in SI, lengths on paper at the report's scale.
 
     `given` is the student's value, `expected` the key's, `own` the value that the student's earlier values give, `band`
@@ -175,8 +171,7 @@ def points_of(cells: Iterable[Marked]) -> tuple[float, float]:
     return sum(points for points, _ in earned), sum(worth for _, worth in earned)
 
 
-@record
-class Notice:
+class Notice(Record):
     """A finding for the instructor: a `kind` (a key of `warnings` in words) and the places that show it.
 
     `spoiled` are places whose marks the policy may deduct for it, `taken` those whose marks it did deduct. `classmate`
@@ -193,8 +188,7 @@ class Notice:
     taken: tuple[Place, ...] = ()
 
 
-@record
-class Amendment:
+class Amendment(Record):
     """An instructor's correction of some cells: their description, their places, and the reason."""
 
     what: Inlines
@@ -263,8 +257,7 @@ class Marking:
         return tuple(cell for cell in self.cells if cell.first)
 
 
-@record
-class Unmarked:
+class Unmarked(Record):
     """A student without marks, with the reasons; these are empty if nothing was submitted.
 
     `unsettled` is a submission of which a smaller share was read than the policy requires.

@@ -8,7 +8,6 @@ from __future__ import annotations
 import datetime
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Annotated, Literal
@@ -18,7 +17,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, Percent, TypedText, Until, Whole, quantity
 from reportgen.assignment.reading import read_model
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.units import Given, Language
 from reportgen.marking.tolerance_bands import DIGITS, PAPER_ERROR
 from reportgen.marking.toleranced_key import Ask
@@ -29,8 +28,7 @@ FLAGS_ONLY = frozenset({"constant", "classmate", "unseen"})
 """Kinds of flags that are only reported by default."""
 
 
-@record
-class Scale:
+class Scale(Record):
     """The scale of marks: the highest mark, and the step to which marks are rounded."""
 
     highest: float = 10.0
@@ -42,8 +40,7 @@ class Scale:
         return round(math.floor(share * self.highest / self.step + 0.5 + 1e-9) * self.step, 6)
 
 
-@record
-class Lateness:
+class Lateness(Record):
     """The deduction from a mark for each day begun after the moment `due`, at most `most` in total."""
 
     due: datetime.datetime
@@ -55,8 +52,7 @@ class Lateness:
         return max(math.ceil((handed_in - self.due) / datetime.timedelta(days=1)), 0)
 
 
-@record
-class Browser:
+class Browser(Record):
     """What students may do in the browser (`serve`): until when, and how often they check and upload.
 
     None allows any number; `checks_from` is the moment of the first check.
@@ -76,8 +72,7 @@ Twice = Literal["last", "first"]
 """Choice between two sheets of one student."""
 
 
-@record
-class Policy:
+class Policy(Record):
     """The requested cells, tolerances (`paper` in m), points and the mark; `weights` by patterns of ids.
 
     `take` says which kinds of flags cost marks. `overrule` gives, by sheet, the reason why it keeps its marks.

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case import Case, CaseOfParts, Misconceptions
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.formula import ids, refs, vocabulary
 from reportgen.formula.ledger import follow
 from reportgen.marking.marking_data import Cells, Marked, Place, Verdict
@@ -127,8 +127,7 @@ def _crossings(working: Working, id: str, places: Sequence[Place]) -> Iterator[t
 # explain almost any slip of arithmetic.
 
 
-@record
-class _Datum:
+class _Datum(Record):
     """A given quantity and the value (SI) that the student seems to have used for it."""
 
     id: str

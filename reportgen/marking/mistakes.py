@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.case.answer_key import Role
 from reportgen.formula import Call, Expression, Negative, Sum, ids, rebuild, refs, walk
 from reportgen.formula.calculation import Family
@@ -42,8 +42,7 @@ TRIGONOMETRIC = {"sin", "cos", "tan"}
 INVERSE = {"arcsin", "arccos", "arctan", "arctan2"}
 
 
-@record
-class Mistake:
+class Mistake(Record):
     """A mistake that can be made in one quantity.
 
     `name` is a key of `mistakes` in `words.yaml`, `where` the id of the quantity in which it is made.

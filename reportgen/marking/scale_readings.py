@@ -8,10 +8,11 @@ velocity of the plan grows. The number alone does not decide; the values read fr
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Role
 from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate

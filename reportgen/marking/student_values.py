@@ -6,12 +6,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import groupby
 from typing import Any
 
 from reportgen import document as tree
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.case import AskedFor, Case, CaseOfParts, LoadedAssignment
 from reportgen.case.answer_key import Key, KeyRow, Role

@@ -7,7 +7,6 @@ answer sheet requests.
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping, Sequence
-from dataclasses import field, replace
 from fnmatch import fnmatchcase
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ import numpy as np
 
 from reportgen.assignment.reading import placed
 from reportgen.base.errors import Finding
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace, uncompared
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known, load_words
@@ -202,8 +201,8 @@ DEFAULT = (
 EVERYTHING = ("*",)
 
 
-@record
-class Ask:
+@uncompared("file")
+class Ask(Record):
     """A selection of sections and ids by patterns; the last matching pattern decides, and "-" excludes.
 
     A selection that begins with an exclusion is applied to `DEFAULT`. `by_section` puts each section of the printed
@@ -214,7 +213,7 @@ class Ask:
     patterns: tuple[str, ...] = DEFAULT
     by_section: bool = False
     self_check: bool = True
-    file: Path | None = field(default=None, compare=False)
+    file: Path | None = None
 
     def __str__(self) -> str:
         by_section = ("by section",) if self.by_section else ()

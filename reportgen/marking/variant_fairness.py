@@ -8,12 +8,11 @@ Source: R. A. Fisher, The Design of Experiments, 1935, § 21.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from statistics import fmean, stdev
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language, write
 from reportgen.base.words import load_words
@@ -37,8 +36,7 @@ With 50 groups, the smallest probability that counts is 1 in 1000, or 20 permuta
 """
 
 
-@record
-class VariantGroup:
+class VariantGroup(Record):
     """Students who share one value: its symbol (None: the variant), the value, their number, mean and spread of marks.
 
     `chance` is the probability of a mean as far from the class's for a random group.

@@ -5,17 +5,16 @@ Torques are in N·m, speeds in rad/s, both positive in the sense of the crank's 
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import record
+from reportgen.base.records import AbstractRecord, Record
 
 
-@record
-class Motor:
+class Motor(Record):
     """A motor of a list: rated `power` (W) at the rated `speed` (rad/s), starting and breakdown torque (N·m)."""
 
     name: str
@@ -30,7 +29,7 @@ class Motor:
         return self.power / self.speed
 
 
-class Drive(ABC):
+class Drive(AbstractRecord):
     """A characteristic: the torque M(ω) (N·m) [N] on the shaft at speeds ω (rad/s) [N], and its slope dM/dω (N·m·s)
     [N].
     """
@@ -54,7 +53,6 @@ class Drive(ABC):
         return ()
 
 
-@record
 class ConstantDrive(Drive):
     """The same torque M = `size` (N·m) at every speed [N]; a brake if it is negative."""
 
@@ -71,7 +69,6 @@ class ConstantDrive(Drive):
         return False
 
 
-@record
 class LinearDrive(Drive):
     """M = M₀ − k ω (N·m) [N] with M₀ = `start` (N·m) and k = `fall` (N·m·s); with M₀ = 0 a load that grows with the
     speed.
@@ -95,7 +92,6 @@ class LinearDrive(Drive):
         return (self.start / self.fall,) if self.fall else ()
 
 
-@record
 class KlossDrive(Drive):
     """An induction motor by Kloss: M = 2 M_k/(s/s_k + s_k/s) (N·m) [N] with the slip s = 1 − ω/ω₀.
 
@@ -120,7 +116,6 @@ class KlossDrive(Drive):
         return tuple(self.synchronous * (1 + sense * self.slip) for sense in (-1, 0, 1))
 
 
-@record
 class TableDrive(Drive):
     """Torques (N·m) [N] at speeds (rad/s) that rise from 0, linear between them; extrapolated beyond the last one."""
 
@@ -149,7 +144,6 @@ class TableDrive(Drive):
         return self.speeds
 
 
-@record
 class Geared(Drive):
     """A drive behind a gear: the crank turns `ratio` times as fast, M = M_motor/i (N·m) [N] at ω_motor = ω/i."""
 
@@ -171,8 +165,7 @@ class Geared(Drive):
         return tuple(corner * self.ratio for corner in self.motor.corners)
 
 
-@record
-class MotionAsked:
+class MotionAsked(Record):
     """Request for the true motion of a machine.
 
     `drive` is the drive reduced to the crank, None for the constant torque that balances the mean of the loads;

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.motion.drives import Motor
 from reportgen.motion.steady_running import SteadyMotion
 
 
-@record
-class DriveDemand:
+class DriveDemand(Record):
     """Requirements of a steady motion for its drive, at the crank (N·m).
 
     `mean` is the mean torque of the drive over the angle, `effective` its root mean square over time, `most` its
@@ -37,8 +36,7 @@ class DriveDemand:
         )
 
 
-@record
-class MotorChecks:
+class MotorChecks(Record):
     """A motor with the checks that it passes, its torques reduced to the crank (N·m)."""
 
     motor: Motor

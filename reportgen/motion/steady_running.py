@@ -7,13 +7,14 @@ then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import replace
 from reportgen.motion.drives import ConstantDrive, Drive
 from reportgen.motion.energy_equation import (
     LEAST_ENERGY,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -25,7 +24,7 @@ from reportgen.assignment.fields import (
     quantity,
 )
 from reportgen.base.errors import Finding
-from reportgen.base.records import record
+from reportgen.base.records import replace
 from reportgen.base.units import Given
 from reportgen.catalogue.topic_sections import (
     Opening,
@@ -63,7 +62,6 @@ GearRatio = Annotated[Given, Ratio(Interval(least=1e-4, most=1e4))]
 START = Given(0.0, 0.0, "deg", "0 deg")
 
 
-@record
 class FoundTorque(Reader):
     """A torque, or `find`."""
 
@@ -76,7 +74,6 @@ class FoundTorque(Reader):
         return {"anyOf": [{"const": FIND}, self.of.schema()]}
 
 
-@record
 class Always(Reader):
     """`true`: a value that is always present and may be written."""
 

@@ -5,11 +5,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.force_analysis import inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.kinematics import solve_motion

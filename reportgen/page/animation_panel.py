@@ -9,14 +9,13 @@ from __future__ import annotations
 import base64
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from reportgen.base.languages import decimal_mark
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import ALIKE, settled, significant
 from reportgen.base.units import Language, rounded, write
 from reportgen.document.alt_text import sentences, within
@@ -117,8 +116,7 @@ class Tracks:
         return base64.b64encode(b"".join(self._values)).decode()
 
 
-@record
-class _Drawn:
+class _Drawn(Record):
     """A pane as the template prints it; lengths are mm, texts are escaped for attributes."""
 
     key: str
@@ -133,8 +131,7 @@ class _Drawn:
     reach: str
 
 
-@record
-class _Charted:
+class _Charted(Record):
     """A chart as the template prints it."""
 
     text: str

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.base.errors import Where
+from reportgen.base.records import replace
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import put

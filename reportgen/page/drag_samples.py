@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from reportgen.assignment import Assignment
+from reportgen.base.records import replace
 from reportgen.case import Case, MachineAnalysis
 from reportgen.drawing.animation import (
     MomentValue,

@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from errno import errorcode
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from reportgen.assignment import parts
 from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, title
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_source import (

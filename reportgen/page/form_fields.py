@@ -7,7 +7,7 @@ from the checks, names and remarks from the words.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 from reportgen.assignment import parts
@@ -18,6 +18,7 @@ from reportgen.assignment.schema import Schema, alternatives, alternatives_to, c
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
 from reportgen.base.kinds import titles
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, flow, path_text

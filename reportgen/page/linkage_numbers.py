@@ -7,11 +7,12 @@ the file again.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Group, Guide, Linkage, Triad
 
 SAME = 1e-9

@@ -8,7 +8,7 @@ Whether the linkage runs is found at each place. The checks of the whole file ar
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
 from pathlib import Path
@@ -19,6 +19,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.base.arrays import Complexes, Flags
 from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import Source
 from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.assembly_checks import WHOLE_TURN, DriverTravel

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Protocol
@@ -20,6 +20,7 @@ from reportgen import catalogue
 from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY
 from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Location, Where
+from reportgen.base.records import replace
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put

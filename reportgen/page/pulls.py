@@ -8,7 +8,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +16,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.machine import Crank, Linkage

@@ -6,10 +6,10 @@ Each gets a line that shows its text and can be removed, so that no fault is wit
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from reportgen.base.errors import Problem, Where
 from reportgen.base.field_words import FieldWords
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import Node
 from reportgen.base.yaml_values import at, path_text
 from reportgen.page.form_fields import FieldGroup, FieldLine, written_at

@@ -7,11 +7,10 @@ reader's fonts, at the places that the report's fonts would take.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from html import escape as escaped
 from itertools import groupby
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.document.layout import fits
 from reportgen.drawing import Arc, Arrow, Circle, Content, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
@@ -57,8 +56,7 @@ OVER, STROKE, BARB = 0.2, 0.065, (0.3, 0.12)
 """Distance of an arrow or a bar above a letter, its width, length and half the width of its head, in font sizes."""
 
 
-@record
-class Run:
+class Run(Record):
     """Letters of one label that look alike: italic or not, their size and their base line's drop in font sizes.
 
     They begin at a distance `back` before the end of the previous run, in their own font size.

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.errors import Location, Where
 from reportgen.base.kinds import program_kinds
+from reportgen.base.records import replace
 from reportgen.base.template_folders import REFERENCE
 from reportgen.base.yaml_edit import exchanged, with_value
 from reportgen.base.yaml_lists import with_items

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.assignment import Assignment
 from reportgen.base.errors import ReportgenError, Where
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import Node, Scalar, Source
 from reportgen.base.yaml_values import at, put
 from reportgen.case import Case

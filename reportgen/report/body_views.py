@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Side
 from reportgen.document.template_rendering import NamedPoint
@@ -16,8 +16,7 @@ from reportgen.report.triad_views import TriadView
 
 
 @view("force", "couple")
-@record
-class BodyView:
+class BodyView(Record):
     """A link with an inertia couple: its number, mass centre, the pin from which it is measured, the ids to show."""
 
     link: int

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import chain
 
+from reportgen.base.records import replace
 from reportgen.case import MachineAnalysis
 from reportgen.case.finished_document import finished
 from reportgen.document import Block, Document, PageBreak, Paragraph, Plate, Reference

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from reportgen.assignment import Assignment
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
 from reportgen.catalogue.topic_sections import sections_of
@@ -39,22 +39,24 @@ DENSE = 361
 """Number of samples of a turn from which curves are drawn."""
 
 
-@dataclass(frozen=True)
-class ReportContext:
+class ReportContext(Record, dict=True):
     """A case together with the data and phrases that its report needs.
 
-    Figures are drawn smaller than their scales by the factor `enlarged`, by which a drawing sheet enlarges them with
-    their letters.  Curves are drawn from `samples` of the cycle if there are any.  `used_symbols` are those of the
-    text, or None until it is written; `drawn` are figures kept by `drawn_once`.
+    Figures are drawn smaller by the factor `enlarged`, by which a drawing sheet enlarges them with their letters, and
+    curves from `samples` of the cycle if there are any.  `used_symbols` are None until the text is written.
     """
 
     case: MachineAnalysis
     enlarged: float = 1.0
     samples: Analysis | None = None
     used_symbols: frozenset[Symbol] | None = None
-    drawn: dict[str, FigureScenes] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     # --- its parts
+
+    @cached_property
+    def drawn(self) -> dict[str, FigureScenes]:
+        """The figures kept by `drawn_once`."""
+        return {}
 
     @cached_property
     def prose(self) -> Prose:

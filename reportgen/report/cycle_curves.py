@@ -8,12 +8,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from functools import partial
 from itertools import takewhile
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.derivation.equation_sides import scheme
 from reportgen.document.figure_placement import FigureScenes

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Side, image
 from reportgen.derivation.load_entries import Polygon
@@ -31,8 +31,7 @@ template_members("carried")(Polygon)
 
 
 @template_members("__str__", "name", "link")
-@record
-class PointView:
+class PointView(Record):
     """A named point on a link, such as a mass centre."""
 
     name: NamedPoint

@@ -6,12 +6,11 @@ The force plans are in `plan_figures`.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM
 from reportgen.derivation.load_entries import Polygon
 from reportgen.document.figure_placement import FigureScenes, beside_one_another, on_paper
@@ -35,8 +34,7 @@ from reportgen.report.slider_faces import at_ends, face, wide_sliders_of
 from reportgen.report.triad_views import LegView, TriadView
 
 
-@record
-class _Bodies:
+class _Bodies(Record):
     """Links of a machine at a position, drawn to a `share` of μ_l, with the forces on them."""
 
     report: ReportContext

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members
 from reportgen.formula import ids
 from reportgen.machine.loads import Applied, Torque
@@ -10,8 +10,7 @@ from reportgen.report.context import ReportContext
 
 
 @template_members("id", "stroke", "line", "ways")
-@record
-class ReadLoad:
+class ReadLoad(Record):
     """A load at a position: its id, the id of the stroke whose fractions its table uses ("" without one), and `line`.
 
     `line` is True if an interpolation is printed.  It is False at a point of the table, and where both neighbouring

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import count
 
+from reportgen.base.records import replace
 from reportgen.catalogue import ternary_ids
 from reportgen.document import Table, Text
 from reportgen.document.tables import list_table

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members, view
 from reportgen.derivation.equation_sides import Scheme, Side, image, sides
 from reportgen.derivation.load_entries import Polygon
@@ -21,8 +21,7 @@ from reportgen.report.driver_view import DriverView, points_on
 
 
 @view("base", "omega", "epsilon")
-@record
-class CarriedPoint:
+class CarriedPoint(Record):
     """A point of a link that turns about `origin`, without a separate segment on the plan.
 
     `relative` is its name with that of the origin, e.g. S2B.  `still` is True if the origin is fixed to the frame,
@@ -50,8 +49,7 @@ class CarriedPoint:
 
 
 @view("reaction", "lines")
-@record
-class Contact:
+class Contact(Record):
     """The reaction `digits` of a slide on `link`.
 
     `moment` and `place` are the ids of the reaction's moment about the pin and of its distance from the pin; `moments`

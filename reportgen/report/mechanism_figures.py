@@ -8,11 +8,11 @@ and `looks` are the scale and the style of all drawings of the mechanism.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from functools import partial, wraps
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import MM
 from reportgen.derivation.equation_sides import Side
 from reportgen.derivation.kinematic_entries import NEAREST, centre_symbol

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from operator import attrgetter
 from typing import Any
 
 from reportgen.base.languages import setting_of
+from reportgen.base.records import replace
 from reportgen.document import Figure, InlineMath, Inlines, Plate, Text
 from reportgen.document.figure_placement import FigureScenes, close
 from reportgen.machine.analysis import Position

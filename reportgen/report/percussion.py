@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.drawing import Circle, Item, Line
 from reportgen.drawing.canvas import Canvas
 from reportgen.drawing.force_drawings import LEAST_ARM, TOGETHER
@@ -25,8 +25,7 @@ from reportgen.report.context import ReportContext
 PercussionCase = Literal["none", "couple", "still", "pivot", "meet", "parallel", "far"]
 
 
-@record
-class Percussion:
+class Percussion(Record):
     """Construction of the line of a link's single inertia force at a position; points in m (x + iy).
 
     `state`: "none" if there is no couple, so that the force acts at S; "couple" if there is no force; "still" if the

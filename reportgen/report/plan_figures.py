@@ -7,11 +7,10 @@ The ledger's plans are in metres on paper (x + iy); `reportgen/drawing/vector_pl
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled, significant
 from reportgen.base.units import MM, nice_up
 from reportgen.derivation.equation_sides import Side, image
@@ -74,8 +73,7 @@ POLE = "pole"
 # --- velocity and acceleration
 
 
-@record
-class MotionFigures:
+class MotionFigures(Record):
     """Figures of the plan of velocities ("v") or accelerations ("a"): the plan, its stages, the plates of one turn."""
 
     what: What
@@ -205,8 +203,7 @@ def _stages(
     return FigureScenes(scenes, note=Chain((report.ledger.symbol(scale), smaller)))
 
 
-@record
-class PlanSeries:
+class PlanSeries(Record):
     """Plans of several positions at one `scale`, in rows; without the mechanism beside them."""
 
     report: ReportContext
@@ -406,8 +403,7 @@ def force_plates(report: ReportContext, group: AssurView) -> FigureScenes:
     return FigureScenes(tuple(ForcePlans(report, group.polygon).scenes()))
 
 
-@record
-class ForcePlans:
+class ForcePlans(Record):
     """Force plans of all positions, each at a separate round scale, which is printed below it.
 
     The forces of a cycle differ by orders of magnitude: at one common scale some plans would be dots.

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import field, replace
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field, replace
 from reportgen.catalogue.given_loads import ByOrdinates
 from reportgen.document import (
     FIRST_COLUMN,
@@ -242,8 +241,7 @@ def lengths(report: ReportContext, key: str, caption: str, head: Sequence[str]) 
 # --- tables by the functions that give their contents
 
 
-@record
-class QuantityTable:
+class QuantityTable(Record):
     """A table of the quantities whose ids a function returns, `at` the positions of that name in the report.
 
     `groups` maps names of phrases to beginnings of ids: the phrase is added to the caption if such a quantity has a
@@ -264,8 +262,7 @@ class QuantityTable:
         return tables(report, key, "".join((caption, *further)), quantities, positions)
 
 
-@record
-class RowTable:
+class RowTable(Record):
     """A table of the rows that a function returns, in columns of these widths (mm)."""
 
     rows: Callable[..., Iterable[Sequence[object]]]

@@ -6,11 +6,10 @@ Everything is read from the printed numbers, so that a sentence and its table ca
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_access import view
 from reportgen.document import InlineMath, Inlines, Text, Value, listed
 from reportgen.formula import ids
@@ -26,8 +25,7 @@ AT_REST = 1e-9
 
 
 @view("place")
-@record
-class Peak:
+class Peak(Record):
     """Quantities with equal values over positions: their greatest size, its positions, and the positions of zeros.
 
     `at` and `zero` are labels of positions, "" if there are none; `many` and `zeros` are their numbers, `where` and
@@ -151,8 +149,7 @@ def _joined(report: ReportContext, alike: Sequence[Peak]) -> Peak:
 # --- motion
 
 
-@record
-class GuidedLink:
+class GuidedLink(Record):
     """A link that slides along a fixed guide, and the pin that moves with it."""
 
     link: int
@@ -248,8 +245,7 @@ def chief_load(report: ReportContext, at: Peak) -> Peak | None:
     return max((one for one in forces_there if one is not None), key=lambda one: one.value.number.value, default=None)
 
 
-@record
-class TorqueSigns:
+class TorqueSigns(Record):
     """Numbers of the positions at which the balancing torque acts `along` the motion, `against` it, or is zero
     (`none`).
     """
@@ -304,8 +300,7 @@ def balance_mean(report: ReportContext) -> Inlines:
 
 
 @view()
-@record
-class Remark:
+class Remark(Record):
     """A sentence about one quantity or several equal ones: symbols, course, and reason."""
 
     symbols: Inlines
@@ -313,8 +308,7 @@ class Remark:
     why: Inlines
 
 
-@record
-class Subject:
+class Subject(Record):
     """Subject of remarks, one of `SUBJECTS`: ids, over one turn or the whole cycle, with or without a remark on zeros.
 
     `why` selects the peaks for which the phrases give a reason.

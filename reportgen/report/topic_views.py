@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import field
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.topics import HookModule
 from reportgen.document.figure_placement import FigureScenes
 from reportgen.report.context import ReportContext
@@ -28,8 +27,7 @@ def _no_residuals(report: ReportContext) -> Mapping[str, float]:
     return {}
 
 
-@record
-class ViewHooks:
+class ViewHooks(Record):
     """Names that a topic adds to the templates of a machine's report, by kind of name."""
 
     values: Mapping[str, Callable[[ReportContext], object]] = field(default_factory=dict)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import template_members, view
 from reportgen.catalogue import ternary_ids
 from reportgen.derivation.equation_sides import Scheme, Side
@@ -24,8 +24,7 @@ WHOLE = 1e-6
 
 
 @view("P", "Q", "rod")
-@record
-class LegView:
+class LegView(Record):
     """A leg of a triad: its `link` from the outer joint P to the joint Q on the plate.
 
     `side` is the motion of Q about P.  `outer` and `inner` are the digits of the reactions on the leg in P and Q.

@@ -18,7 +18,7 @@ from typing import Any
 from reportgen.assignment.reading import words_beside
 from reportgen.base.errors import Fault, Location, ReportgenError
 from reportgen.base.files import contents, leads_out, put_file, put_files, put_set, reported, version
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, language_of
 from reportgen.base.yaml_source import read_source
@@ -32,8 +32,7 @@ LONGEST_NAME = 80
 """Characters kept of the name of an uploaded file."""
 
 
-@record
-class ClassFolder:
+class ClassFolder(Record):
     """The paths of a class."""
 
     path: Path

@@ -19,7 +19,7 @@ from itsdangerous import BadSignature, Signer
 from sqlalchemy import Row, delete, select, update
 from sqlalchemy.dialects.sqlite import insert
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.classes.roster import comparable
 from reportgen.server.database import Database
 from reportgen.server.tables import people, sessions
@@ -35,8 +35,7 @@ CODE = 10
 ALPHABET = str.maketrans("ABCDEFGHIJKLMNOPQRSTUVWXYZ234567", "abcdefghjkmnpqrstuvwxyz023456789")
 
 
-@record
-class Person:
+class Person(Record):
     """Somebody who has signed in; `csrf` is the token of the session's forms."""
 
     folder: str

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 from reportgen import document as tree
+from reportgen.base.records import replace
 from reportgen.cases import open_case
 from reportgen.drawing.animation import Animation
 from reportgen.page import html

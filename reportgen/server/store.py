@@ -10,7 +10,7 @@ from typing import Any
 from sqlalchemy import Row, Table, func, select, update
 from sqlalchemy.dialects.sqlite import insert
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.server.database import Database, Writing
 from reportgen.server.tables import cells, checks, handins, log, marks, people, saves, settings, uploads
 
@@ -23,8 +23,7 @@ class UsedUpError(Exception):
     """The policy allows no more uploads or checks."""
 
 
-@record
-class TypedCell:
+class TypedCell(Record):
     """A cell as the browser sends it."""
 
     client: str
@@ -33,8 +32,7 @@ class TypedCell:
     text: str
 
 
-@record
-class Saved:
+class Saved(Record):
     """A stored cell."""
 
     entry: TypedCell
@@ -42,8 +40,7 @@ class Saved:
     revision: int
 
 
-@record
-class Window:
+class Window(Record):
     """Until when a student may work; None for no end."""
 
     closes: datetime.datetime | None

@@ -9,7 +9,7 @@ import io
 import tempfile
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -19,6 +19,7 @@ from reportgen.assignment.student_copy import handed_out
 from reportgen.base import units
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
 from reportgen.base.files import contents, put_file
+from reportgen.base.records import replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words, speak
 from reportgen.case.answer_key import Key, KeyRow

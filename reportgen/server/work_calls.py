@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 
-@record
-class WorkCall:
+class WorkCall(Record):
     """A function of `work`, found in the process that runs it."""
 
     name: str

@@ -10,10 +10,11 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 
+from reportgen.base.records import replace
 from reportgen.drawing.drawing_sheet import GAP, PlacedScene, Room, TooLargeError
 from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
 

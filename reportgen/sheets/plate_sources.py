@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.case import MachineAnalysis
 from reportgen.document import Text, plain
 from reportgen.document.cjk_punctuation import set_out
@@ -57,8 +57,7 @@ class Sources:
         return plain(set_out((line,), language), language)
 
 
-@record
-class Drawn:
+class Drawn(Record):
     """The scenes of a plate, drawn small; `name` is its key among the words, the others are as in `DrawingPlate`."""
 
     name: str

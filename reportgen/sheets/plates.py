@@ -7,9 +7,9 @@ lines have the length that the report prints.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import partial
 
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.case import Case
 from reportgen.derivation.kinematic_entries import What

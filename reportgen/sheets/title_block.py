@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import fields, replace
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -16,7 +15,7 @@ from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Decimal, Flag, Interval, OneLine
 from reportgen.assignment.reading import placed, read_model
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.base.words import as_error, close_or_known
@@ -53,8 +52,7 @@ LINE = 1.3
 Align = Literal["left", "center"]
 
 
-@record
-class BlockCell:
+class BlockCell(Record):
     """A cell of a title block with a printed text or a field; x and y (mm) lead from the block's lower left corner."""
 
     x: float
@@ -70,8 +68,7 @@ class BlockCell:
     """True if the text goes upwards."""
 
 
-@record
-class Margins:
+class Margins(Record):
     """Distances (mm) from the edges of the paper to the frame; `other` is for all edges but the left one."""
 
     left: float = 20.0
@@ -268,8 +265,7 @@ class _File(_Block):
     following: _Block | None = None
 
 
-@record
-class TitleBlock:
+class TitleBlock(Record):
     """The cells of a title block, its size in mm, and the margins of its sheets."""
 
     size: tuple[float, float]
@@ -329,7 +325,7 @@ def read_block(path: Path, language: Language | None = None) -> TitleBlock:
 
 
 def _cells_of(cells: Sequence[_Cell]) -> tuple[BlockCell, ...]:
-    return tuple(BlockCell(*(getattr(cell, field.name) for field in fields(BlockCell))) for cell in cells)
+    return tuple(BlockCell(*(getattr(cell, name) for name in BlockCell.__struct_fields__)) for cell in cells)
 
 
 def _findings(block: _Block, at: Where) -> Iterator[Finding]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
@@ -25,7 +24,6 @@ def pull(c: Size, length: Size, free: Size) -> Size:
     return c * (length - free)
 
 
-@dataclass(frozen=True)
 class SpringLaw(Law):
     """A spring of stiffness c (N/m) and free length l₀ (m) between two ends; the law of the force (N) on either end."""
 
@@ -87,7 +85,6 @@ def within_half_a_turn(angle: Floats | float) -> Floats:
     return np.asarray(np.angle(np.exp(1j * np.asarray(angle))))
 
 
-@dataclass(frozen=True)
 class TorsionLaw(Law):
     """A torsion spring of c (N·m/rad) on a link about a pin: M = −c(φ − φ₀), φ the link's angle, φ₀ = `free` (rad).
 

@@ -15,7 +15,7 @@ from pydantic import Field
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Either, Quantity, Reader, Whole, fault, quantity
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.base.units import Given, measures
 from reportgen.catalogue.declared_loads import LAST_LINK, MOST_LOADS, Link, Name, PointName, named, on_link, pins
@@ -39,8 +39,7 @@ ROUNDING = 1e-9
 ANGLE = quantity("deg", least=-360, most=360, tiny=1e-6)
 
 
-@record
-class End:
+class End(Record):
     """The far end of a spring: a fixed point by name, a place of the frame, or a point of another link."""
 
     name: str = ""
@@ -48,7 +47,6 @@ class End:
     place: tuple[Given, Given] | None = None
 
 
-@record
 class SpringEnd(Reader):
     """`D`, `[300 mm, 420 mm]` or `{link: 2, at: E}`."""
 
@@ -89,8 +87,7 @@ class Spring(Part):
 
 
 @view("phrase")
-@record
-class SpringRow:
+class SpringRow(Record):
     """A spring for templates: its number, its ends, its stiffness and free size, the ids of its loads."""
 
     number: int

@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.catalogue.linkage_file import place
 from reportgen.drawing.geometry import polar
 from reportgen.structure.splitting import FRAME, ChainJoint
@@ -28,8 +28,7 @@ SAME_PLACE = 1e-9
 """Points within this distance (m) are one place."""
 
 
-@record
-class Profile:
+class Profile(Record):
     """The profile of a link in a higher pair at the contact.
 
     `centre` is its centre of curvature, None if it is straight; `axis` is the centre of the circle that represents it
@@ -40,8 +39,7 @@ class Profile:
     axis: complex | None
 
 
-@record
-class PlacedJoint:
+class PlacedJoint(Record):
     """A joint with its letter and place.
 
     A sliding pair has the direction of its guide in `slide` (rad); its first link is the block, its last the guide.

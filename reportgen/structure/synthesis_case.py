@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.case.design_case import DesignPage
@@ -30,8 +30,7 @@ NARROW, WIDE = 22.0, 26.0
 
 
 @view()
-@record
-class SolutionView:
+class SolutionView(Record):
     """A solution for the templates: the ids of its worked lines, β, and what its words depend on."""
 
     centre: Sequence[str]

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
 from pathlib import Path
 from xml.etree import ElementTree
 
 from reportgen.base.errors import Fault, Location, TemplateError
 from reportgen.base.files import cause, contents
-from reportgen.base.records import record
+from reportgen.base.records import Record, field
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.workbook.zip_package import Attributes, Package, RefusedError
@@ -91,8 +90,7 @@ MARGINS = {"top": "top", "bottom": "bottom", "left": "left", "right": "right", "
 """The margins of a section by the names that pages have for them."""
 
 
-@record
-class Letterhead:
+class Letterhead(Record):
     """Parts as XML, "" for missing ones; margins in mm."""
 
     styles: str

@@ -15,7 +15,7 @@ import zipfile
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.workbook.zip_package import LONGEST_CELL, guarded, number_text
 
 if TYPE_CHECKING:
@@ -47,8 +47,7 @@ _ESCAPED = re.compile(r"_(?=x[0-9A-Fa-f]{4}_)")
 _NAME = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
 
 
-@record
-class Entry:
+class Entry(Record):
     """A cell to be written: its value, how it looks, a comment, a number format such as "0.00".
 
     `unlocked` lets it be filled in where the sheet is protected.
@@ -65,8 +64,7 @@ NOTHING = Entry()
 """A cell that is left as it is."""
 
 
-@record
-class WorksheetData:
+class WorksheetData(Record):
     """A page of a workbook: rows of entries or of bare values.
 
     `widths` are those of the columns, in characters; `frozen` are the rows and columns that stay in view.
@@ -83,8 +81,7 @@ class WorksheetData:
     breaks: Sequence[int] = ()
 
 
-@record
-class Book:
+class Book(Record):
     """A workbook of one or more sheets; their names are made valid and distinct."""
 
     sheets: Sequence[WorksheetData]

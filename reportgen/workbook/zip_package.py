@@ -17,7 +17,7 @@ from typing import Any, Literal
 from xml.parsers import expat
 
 from reportgen.base.errors import Fault, Location
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 MOST_PARTS = 2_000
 MOST_UNPACKED = 60_000_000
@@ -51,8 +51,7 @@ _FORBIDDEN_TYPES = re.compile(r"macroenabled|vbaproject|intlmacrosheet", re.IGNO
 _TRAITS = re.compile(r"\.(xml|rels|vml)$", re.IGNORECASE)
 
 
-@record
-class Bounds:
+class Bounds(Record):
     """Limits of a package: bytes of all its parts together, and the kinds of relations that may lead outside."""
 
     unpacked: int = MOST_UNPACKED
@@ -63,8 +62,7 @@ Attributes = dict[str, str]
 Start = Callable[[str, Attributes], None]
 
 
-@record
-class Relation:
+class Relation(Record):
     """Relation of a part to another: the last word of its type, its target, and whether that is outside the package."""
 
     kind: str
@@ -326,8 +324,7 @@ _INSIDE = re.compile(r"""(?<![,;|'"\s])[,;|'"\s]++(?=[=+\-@＝＋－＠])""")
 _NUMBER_CELL = re.compile(rf"{_NUMBER.pattern}(?:[{_SEPARATORS}]|$)")
 
 
-@record
-class SheetCell:
+class SheetCell(Record):
     """A cell as displayed: `value` is a number of kind "number", None of kind "empty", else text.
 
     A date is ISO text, a boolean TRUE or FALSE, an error its code (#DIV/0!). For a formula, `formula` is its text
@@ -358,8 +355,7 @@ class SheetCell:
         return self.kind == "empty"
 
 
-@record
-class Page:
+class Page(Record):
     """A sheet, or a whole CSV file: its rows in order, each up to its last cell with content."""
 
     name: str

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from reportgen import document as tree
 from reportgen.base.languages import setting_of
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language
 from reportgen.document import layout
@@ -451,8 +451,7 @@ def _rules_below(row: Sequence[tree.Cell]) -> str:
 # --- contents and outline -------------------------------------------------------------------------
 
 
-@record
-class _Entry:
+class _Entry(Record):
     """A heading of the contents and the outline; `below` counts the headings directly under it."""
 
     section: tree.Section

@@ -22,7 +22,7 @@ from typing import Self
 
 from reportgen.base.errors import TypesetterError
 from reportgen.base.files import keep, kept
-from reportgen.base.records import record
+from reportgen.base.records import Record
 
 INSTALL = (
     "apt-get install --no-install-recommends texlive-latex-base texlive-latex-recommended texlive-lang-other lmodern"
@@ -65,8 +65,7 @@ _ENTRY = re.compile(r"^\\contentsentry\{.*$", re.MULTILINE)
 _ERROR = re.compile(r"^(?:!|\S+:\d+:) ", re.MULTILINE)
 
 
-@record
-class Compiled:
+class Compiled(Record):
     """A finished PDF with its source, its number of passes, and the log's lines about boxes over 1 pt too large."""
 
     source: str

@@ -11,12 +11,12 @@ import datetime
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
 from itertools import groupby, pairwise
 
 from reportgen import document as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import PageMargins, setting_of
+from reportgen.base.records import asdict
 from reportgen.base.template_folders import templates
 from reportgen.base.units import Language, by_power_of_ten
 from reportgen.document import layout, spoken_formulas

@@ -11,7 +11,7 @@ from itertools import groupby, pairwise
 
 from reportgen import document as tree
 from reportgen.base.languages import setting_of
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.document import layout
 from reportgen.document.alt_text import figure_text
 from reportgen.drawing import Scene
@@ -108,8 +108,7 @@ AFTER = paragraph("Gap", "", spaced(0, 10))
 NEXT_PAGE = paragraph("Gap", '<w:r><w:br w:type="page"/></w:r>')
 
 
-@record
-class _Setting:
+class _Setting(Record):
     """Context of a block: the level of its list, 0 outside, and True if it stays with the next block."""
 
     level: int = 0

@@ -8,12 +8,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping
-from dataclasses import asdict, replace
 from html import escape as escaped
 from typing import Any
 
 from reportgen.base.languages import PageMargins
-from reportgen.base.records import record
+from reportgen.base.records import Record, asdict, replace
 
 NAMESPACES = {
     "w": "http://schemas.openxmlformats.org/wordprocessingml/2006/main",
@@ -91,8 +90,7 @@ def drawing(number: int, width: float, height: float, description: str) -> str:
     )
 
 
-@record
-class PageSetup:
+class PageSetup(Record):
     """Paper and margins of a section (mm); `above` and `below` are the distances of header and footer from the edge."""
 
     width: float = 210.0
@@ -116,8 +114,7 @@ class PageSetup:
 A4 = PageSetup()
 
 
-@record
-class Own:
+class Own(Record):
     """A school's own parts: XML, "" for the default; margins by the names that pages use for them (mm)."""
 
     styles: str = ""

@@ -7,11 +7,10 @@ keywords in it, so each letter of a name is a separate run.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import chain
 from typing import ClassVar
 
-from reportgen.base.records import record
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.document import TEXT_WIDTH
 from reportgen.document.layout import ABREAST, fits, in_groups
@@ -143,8 +142,7 @@ HANGING, WITHIN = 2.0, 1.6
 """Indentations (em) of a continuation line in a flow, and within a side of a row."""
 
 
-@record
-class FormulaLine:
+class FormulaLine(Record):
     """A line of a displayed equation: the part left of the "=" that lines are aligned at, and the rest."""
 
     left: Part
@@ -274,8 +272,7 @@ SLIVER = 1.0
 NO_COLUMNS = range(0)
 
 
-@record
-class GridEntry:
+class GridEntry(Record):
     """The content of a grid cell, its alignment, and its indentation (mm)."""
 
     content: str = ""

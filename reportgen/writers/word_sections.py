@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from reportgen import document as tree
-from reportgen.base.records import record
+from reportgen.base.records import Record
 from reportgen.writers.word_elements import PageSetup
 
 COVER = PageSetup(left=36, right=26, top=30, bottom=26, running=False, framed=True)
@@ -14,8 +14,7 @@ CONTENTS_LEVEL = 3
 """Deepest level of heading in the contents."""
 
 
-@record
-class Bookmark:
+class Bookmark(Record):
     """The target of a reference: a bookmark, and the switch that shows something other than the marked text."""
 
     bookmark: str

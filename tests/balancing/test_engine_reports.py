@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +14,7 @@ from reportgen.balancing import orders_ids
 from reportgen.balancing.engine_calculation import COUPLES, ORDERS
 from reportgen.balancing.engine_case import EngineCase
 from reportgen.balancing.engine_drawings import UP, star
+from reportgen.base.records import replace
 from reportgen.base.template_folders import languages
 from reportgen.base.units import Language
 from reportgen.cases import open_case

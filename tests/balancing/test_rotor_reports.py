@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -16,6 +15,7 @@ from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_case import RotorCase
 from reportgen.balancing.rotor_drawings import moments_plan, two_views, unbalance_plan
 from reportgen.balancing.rotor_file import MOST_MASSES
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.cases import open_case, opened
 from reportgen.catalogue import sample

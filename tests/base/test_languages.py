@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ import pytest
 from reportgen.base import languages
 from reportgen.base.errors import TemplateError
 from reportgen.base.languages import LanguageSetting, UnitNames, read_setting
+from reportgen.base.records import replace
 from reportgen.base.template_folders import schools
 from reportgen.base.units import read_unit
 from reportgen.formula import Symbol

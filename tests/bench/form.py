@@ -12,7 +12,7 @@ import sys
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from time import process_time, sleep
 from typing import Any
@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from reportgen import catalogue
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import MappingNode, Scalar, Source, read_source
 from reportgen.base.yaml_values import at, path_text, put
 from reportgen.cases import open_case, opener

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from time import perf_counter
@@ -18,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from reportgen import api, catalogue
+from reportgen.base.records import replace
 from reportgen.friction.joints import Friction
 from reportgen.friction.joints import with_friction as forces_with_friction
 from reportgen.machine import joints

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen.base.errors import Problem
+from reportgen.base.records import replace
 from reportgen.cam.case import CamCase
 from reportgen.cam.inverse_design import CamLimits, least_oscillating
 from reportgen.cam.motion_laws import FollowerMotion, law

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.base.template_folders import languages
 from reportgen.cases import open_case
 from reportgen.classes.class_marking import Graded

@@ -6,7 +6,6 @@ import errno
 import io
 import os
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -14,6 +13,7 @@ import pytest
 from reportgen.api import Engine
 from reportgen.base import files
 from reportgen.base.errors import AssignmentError, OutputError
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.classes.batch_run import Order, locked, run_batch, watching
 from tests.classes.classes import Batch, here, tree, write_class

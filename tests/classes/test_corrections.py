@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.errors import AssignmentError, Problem
+from reportgen.base.records import replace
 from reportgen.classes.corrections import applied, read_corrections
 from reportgen.document import text_of
 from reportgen.marking.class_marks import grade_rows

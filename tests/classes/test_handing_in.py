@@ -6,12 +6,12 @@ import datetime
 import os
 import shutil
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.errors import AssignmentError, Location
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import Scalar
 from reportgen.classes import class_marking
 from reportgen.classes.class_marking import Graded

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.errors import Location, Problem
+from reportgen.base.records import replace
 from reportgen.base.template_folders import templates
 from reportgen.base.words import templates_hash
 from reportgen.classes import batch_manifest

@@ -11,12 +11,12 @@ import io
 import stat
 import zipfile
 from collections.abc import Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen.base.errors import AssignmentError, Fault
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.classes import class_marking, class_outputs
 from reportgen.classes.archives import MOST_MEMBERS

@@ -14,7 +14,6 @@ import time
 from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import closing
-from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -23,6 +22,7 @@ import pytest
 
 from reportgen.api import Engine, Maker
 from reportgen.base.files import put_file, put_set
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.classes import cleanup
 from reportgen.classes import worker_pool as pools

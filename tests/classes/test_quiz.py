@@ -10,7 +10,7 @@ import base64
 import html
 import re
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -19,6 +19,7 @@ import pytest
 
 from reportgen import document as tree
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Role
 from reportgen.cases import open_case
 from reportgen.classes import moodle_quiz

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import random
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import Problem
+from reportgen.base.records import replace
 from reportgen.case import MachineAnalysis
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case

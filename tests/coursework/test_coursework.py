@@ -7,7 +7,6 @@ import math
 import re
 from collections import Counter
 from collections.abc import Callable
-from dataclasses import replace
 from functools import cache
 from io import BytesIO
 from pathlib import Path
@@ -18,6 +17,7 @@ from openpyxl import load_workbook
 from reportgen import check, load, solve
 from reportgen.api import result_files
 from reportgen.base.errors import Location
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.cases import open_case, opener
 from reportgen.coursework.case import Coursework, PartCase

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 from reportgen.api import task_files
 from reportgen.assignment.common import Assignment
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.cases import open_case
 from reportgen.catalogue import load
 from reportgen.classes.batch_run import Order, Result, run_batch

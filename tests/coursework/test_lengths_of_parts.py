@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +14,7 @@ import pytest
 from reportgen import catalogue, check
 from reportgen.assignment.student_copy import handed_out
 from reportgen.base.errors import Location
+from reportgen.base.records import replace
 from reportgen.base.yaml_source import MappingNode, read_source
 from reportgen.cases import open_case
 from reportgen.catalogue import load

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.derivation import ONE_QUANTITY
 from reportgen.derivation.group_forces import enter_forces
 from reportgen.derivation.group_motion import enter_kinematics

@@ -6,13 +6,13 @@ The arrays choose the special point of each position, the ledger one for all, an
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from books import Book, keep
 from made_triads import R1, clear_places, random_linkages
 
+from reportgen.base.records import replace
 from reportgen.derivation.group_motion import enter_kinematics
 from reportgen.formula import Fraction, Negative, ids, walk
 from reportgen.formula.calculation import Calculation

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from made_triads import R1, clear_places, random_linkages
 from test_loops import looped
 
 from reportgen import api
+from reportgen.base.records import replace
 from reportgen.catalogue import ternary_ids
 from reportgen.catalogue.ternary_loop import MOST
 from reportgen.catalogue.vector_loops import ClosedLoops

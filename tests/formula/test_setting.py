@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.formula import Chain, Expression, Number, Symbol, call, cos, rebuild, sin, sqrt

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from pathlib import Path
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import open_case

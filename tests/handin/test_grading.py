@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import io
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import openpyxl
 import pytest
 
 from reportgen.base.errors import AssignmentError, Location
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes import class_marking, class_outputs

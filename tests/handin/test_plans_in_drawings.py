@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import re
 from collections import Counter
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +12,7 @@ import ezdxf
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.case import MachineAnalysis
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow

@@ -9,11 +9,11 @@ from __future__ import annotations
 import shutil
 import tempfile
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case
 from reportgen.classes.variants import make_variants

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key
 from reportgen.marking.answer_sheet import answer_book
 from reportgen.workbook import Book, write_xlsx

@@ -5,13 +5,13 @@ from __future__ import annotations
 import operator
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
-from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import numpy as np
 
 from reportgen.base.errors import Location
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Role
 from reportgen.cases import opened
 from reportgen.marking.marking_data import Answer, Submission

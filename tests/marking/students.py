@@ -6,7 +6,7 @@ import re
 import tempfile
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ import yaml
 from reportgen import api
 from reportgen.assignment import Assignment
 from reportgen.base.errors import AssignmentError, Location
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Key, KeyRow
 from reportgen.cases import opened
 from reportgen.formula.ledger import follow

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +9,7 @@ from openpyxl import load_workbook
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.case.answer_key import Key
 from reportgen.cases import open_case, opened

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.document import text_of
 from reportgen.marking.exchanged_positions import NAME
 from reportgen.marking.feedback import feedback_document

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +11,7 @@ import pytest
 from openpyxl import load_workbook
 
 from reportgen.base.errors import CellLocation, Problem
+from reportgen.base.records import replace
 from reportgen.base.template_folders import languages, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words

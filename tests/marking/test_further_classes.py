@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import io
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.cases import open_case
 from reportgen.classes import class_marking
 from reportgen.classes.batch_run import Order, run_batch

@@ -5,11 +5,10 @@ One wrong value costs one mark and is told as it is, a misread datum costs one, 
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.formula.ledger import follow
 from reportgen.marking.judging import mark
 from reportgen.marking.toleranced_key import Ask

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.marking.judging import mark
 from reportgen.marking.marking_data import Marking
 from reportgen.marking.mistakes import Mistake

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import warnings
 from collections import Counter
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import KeyRow
 from reportgen.cases import open_case, opened
 from reportgen.marking.judging import mark

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Role
 from reportgen.drawing import Circle
 from reportgen.drawing.statistics_charts import intervals, scatter

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from reportgen import api
 from reportgen.api import Engine
 from reportgen.assignment.student_copy import handed_out
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.cases import open_case
 from reportgen.marking.answer_sheet import answer_book

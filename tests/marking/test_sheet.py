@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from openpyxl import load_workbook
 
+from reportgen.base.records import replace
 from reportgen.base.units import Language, write
 from reportgen.case.answer_key import Key, Role
 from reportgen.document import Document, Table, plain, text_of

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import replace
 from functools import partial
 from operator import mul
 from typing import Any
@@ -11,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.case.answer_key import Role
 from reportgen.classes.class_marking import asked_of
 from reportgen.marking.judging import mark

@@ -6,7 +6,6 @@ import datetime
 import math
 import re
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ from hypothesis import strategies as st
 from openpyxl import load_workbook
 
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import replace
 from reportgen.base.units import Language, QuantityFault
 from reportgen.case.answer_key import Key
 from reportgen.formula.vocabulary import KINDS

@@ -7,13 +7,13 @@ signs follow from them, so that every linkage exists there.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import newton_euler as ne
 import numpy as np
 from hypothesis import strategies as st
 
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Dyad, DyadKind, Guide, Inertia, Linkage, LinkPoint, SlidingDriver, Triad
 from reportgen.machine.force_analysis import Load, reaction_name
 from reportgen.machine.kinematics import Motion, solve_motion

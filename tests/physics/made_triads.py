@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver, Triad, TriadLeg
 from reportgen.machine.kinematics import course_of, solve_motion
 

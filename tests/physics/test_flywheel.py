@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +12,7 @@ import pytest
 
 from reportgen import api, catalogue
 from reportgen.base.kinds import program_kinds
+from reportgen.base.records import replace
 from reportgen.cases import open_case
 from reportgen.derivation import write_ledger
 from reportgen.drawing import Polyline

@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from pathlib import Path
 from typing import get_args
 
@@ -15,6 +14,7 @@ import pytest
 import reportgen
 from reportgen import api
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import replace
 from reportgen.derivation import enter_plans
 from reportgen.machine import load_laws
 from reportgen.machine.analysis import Machine, analyse

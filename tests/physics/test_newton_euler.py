@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 
 import linkages as made
 import newton_euler as ne
@@ -14,6 +13,7 @@ from agreement import AGREEMENT, Acting, Pairs, collect, off, weights
 from hypothesis import HealthCheck, given, reject, settings
 from hypothesis import strategies as st
 
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, SlidingDriver
 from reportgen.machine.force_analysis import Forces, Load, inertia_loads, solve_forces, virtual_work_torque
 from reportgen.machine.force_analysis import weights as forces_of_weight

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from time_integration import integrate
 
 from reportgen import catalogue
 from reportgen.assignment.common import Positions
+from reportgen.base.records import replace
 from reportgen.flywheel.regulation import flywheel
 from reportgen.formula.calculation import Calculation
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -30,6 +29,7 @@ from reportgen.balancing.shaking_force import (
     shaking_force,
     shaking_moment,
 )
+from reportgen.base.records import replace
 from reportgen.cases import MachineCase, open_case
 from reportgen.formula.calculation import Calculation
 from reportgen.machine import GROUND, Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -12,6 +11,7 @@ import pytest
 from test_running import EIGHTHS, OUTWARD, R3, SLIDER_CRANK, made_at_random, with_load
 from time_integration import in_time, integrate
 
+from reportgen.base.records import replace
 from reportgen.machine import Inertia
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.load_laws import FULL_TURN, TableLaw, by_stroke

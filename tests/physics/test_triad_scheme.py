@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 from made_triads import DEGREE, R1
 
+from reportgen.base.records import replace
 from reportgen.drawing.scheme import Looks, groups, skeleton
 from reportgen.machine.kinematics import solve_motion
 from reportgen.page.linkage_numbers import numbers, placed, rebuilt

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 from made_triads import R1
 
 from reportgen.balancing.counterweights import crank_rods, four_bar, place_on_link
 from reportgen.balancing.orders import engine, on_sliders
+from reportgen.base.records import replace
 from reportgen.machine import Dyad, Guide
 from reportgen.machine.kinematics import solve_motion
 

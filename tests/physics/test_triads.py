@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 
 import linkages as made
 import newton_euler as ne
@@ -14,6 +13,7 @@ import pytest
 from agreement import AGREEMENT, Pairs, collect, off, weights
 from made_triads import DEGREE, R1, clear_places, random_linkages, random_places, triad
 
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Linkage, Triad, joints, mobility
 from reportgen.machine.force_analysis import Load, inertia_loads, solve_forces, virtual_work_torque
 from reportgen.machine.force_analysis import weights as forces_of_weight

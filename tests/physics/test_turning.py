@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.machine import Crank, Dyad, Guide, Inertia, Linkage, LinkPoint, joints, mobility
 from reportgen.machine.force_analysis import (
     Load,

@@ -7,7 +7,6 @@ crank needs, is linear in its acceleration, and that acceleration is taken at wh
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 from itertools import pairwise
 
@@ -15,6 +14,7 @@ import linkages as made
 import newton_euler as ne
 import numpy as np
 
+from reportgen.base.records import replace
 from reportgen.machine.analysis import Machine
 from reportgen.machine.kinematics import solve_motion
 

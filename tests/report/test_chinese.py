@@ -7,7 +7,6 @@ import re
 import zipfile
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.errors import AssignmentError
+from reportgen.base.records import field_names
 from reportgen.document import Document, text_of
 from reportgen.formula import Number
 from reportgen.writers import typst_fonts
@@ -37,12 +37,12 @@ def numbers(part: Any) -> Iterator[str]:
     """All numbers of a tree, as they are rounded, wherever they stand in it."""
     if isinstance(part, Number):
         yield f"{part.value:.{part.decimals}f}" if part.decimals is not None else f"{part.value!r}"
-    elif is_dataclass(part):
-        for field in fields(part):
-            yield from numbers(getattr(part, field.name))
     elif isinstance(part, tuple):
         for one in part:
             yield from numbers(one)
+    else:
+        for name in field_names(type(part)):
+            yield from numbers(getattr(part, name))
 
 
 @pytest.mark.parametrize("path", matrix([*CORE, *OTHERS], CORE[:1]), ids=lambda path: path.stem)

@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-from dataclasses import replace
 from itertools import cycle
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ import pytest
 
 from reportgen import api
 from reportgen.base.provenance import RECORD
+from reportgen.base.records import replace
 from reportgen.document import Contents, Section, plain
 from tests.lanes import matrix, proof
 from tests.report import built, pages

@@ -5,13 +5,13 @@ from __future__ import annotations
 import errno
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import fields
 from pathlib import Path
 from typing import Any, get_args
 
 import pytest
 
 from reportgen.base.kinds import SAMPLE, program_kinds
+from reportgen.base.records import field_names
 from reportgen.base.template_folders import kind_file, search_path
 from reportgen.base.units import Language
 from reportgen.base.words import SECTION, Passage, load_words, sections
@@ -216,7 +216,7 @@ def test_every_word_is_used() -> None:
     called = [section.text for file in TEMPLATES.rglob("*.md") for section in called_sections(file).values()]
     code = "\n".join([*(path.read_text(encoding="utf-8") for path in sources), *called])
     words = load_words(search_path("en"))
-    assert words["document"].keys() | {"speech", "phrases"} == {field.name for field in fields(Words)}
+    assert words["document"].keys() | {"speech", "phrases"} == {*field_names(Words)}
     assert words["groups"].keys() == {*get_args(DyadKind), "3RRR"}
     assert words["joints"].keys() == {"R", "P"}
     computed = {"document", "groups", "joints", "zero", "meanings", "main_figures", "symbols", "quantities", "positive"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import fields, is_dataclass, replace
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ import pytest
 
 from reportgen import api
 from reportgen.assignment.common import ReportSection, Student
+from reportgen.base.records import field_names, replace
 from reportgen.document import Section
 from tests.report import built, pages
 from tests.report.built import Written
@@ -72,9 +72,7 @@ def strings(node: Any) -> list[str]:
         return [node]
     if isinstance(node, tuple | list):
         return [text for item in node for text in strings(item)]
-    if is_dataclass(node):
-        return [text for field in fields(node) for text in strings(getattr(node, field.name))]
-    return []
+    return [text for name in field_names(type(node)) for text in strings(getattr(node, name))]
 
 
 @cache

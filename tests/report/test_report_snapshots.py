@@ -5,12 +5,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from reportgen import api
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.document import Block, Document, Section, text_of
 from tests.report import built

@@ -6,7 +6,6 @@ import errno
 import io
 import os
 import re
-from dataclasses import replace
 from pathlib import Path
 
 import ezdxf
@@ -16,6 +15,7 @@ from typer.testing import CliRunner, Result
 from reportgen import api
 from reportgen.base.errors import AssignmentError
 from reportgen.base.languages import languages, setting_of
+from reportgen.base.records import replace
 from reportgen.cases import open_case
 from reportgen.cli import app
 from reportgen.drawing import Label

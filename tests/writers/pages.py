@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import shutil
 import unicodedata
-from dataclasses import replace
 from typing import Any
 
 import pymupdf
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.document import Block, Document
 from reportgen.writers import latex, pdflatex, typst, typst_compiler
 from tests.writers import sample

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from dataclasses import replace
 
+from reportgen.base.records import replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words
 from reportgen.document import (

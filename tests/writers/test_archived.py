@@ -6,7 +6,6 @@ import re
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import replace
 from datetime import date
 from functools import cache
 from pathlib import Path
@@ -18,6 +17,7 @@ from reportgen import api
 from reportgen.base.errors import OutputWarning, TypesetterError
 from reportgen.base.pdf_standards import KNOWN, STANDARDS, other_than_usual, titled
 from reportgen.base.process_limits import TEMPLATES, call_within
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.document import Cell, Column, Document, Figure, InlineMath, Paragraph, Section, Table, Text
 from reportgen.formula import Symbol

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from html.parser import HTMLParser
 from itertools import pairwise
 from xml.etree import ElementTree
 
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.base.units import Language
 from reportgen.document import Equation, InlineMath, Paragraph, Section, Text
 from reportgen.drawing import Arrow, Circle, Label, Line, Scene

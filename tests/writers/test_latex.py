@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import replace
 
 import pymupdf
 import pytest
 
 from reportgen.base.errors import TypesetterError
+from reportgen.base.records import replace
 from reportgen.document import (
     Block,
     Cell,

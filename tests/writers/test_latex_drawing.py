@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import pymupdf
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.document import Figure
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Label, Line, Pen, Polyline, Scene
 from reportgen.writers.latex_math import LatexFormulas

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cache
 from typing import Any
 
@@ -12,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from reportgen.base.errors import TypesetterError
+from reportgen.base.records import replace
 from reportgen.document import (
     Column,
     Cover,

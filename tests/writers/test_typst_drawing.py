@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
 
 import pymupdf
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.document import Figure
 from reportgen.drawing import Arc, Arrow, Label, Line, Pen, Polyline, Scene
 from tests.writers import sample

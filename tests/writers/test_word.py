@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 import struct
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from reportgen.base.records import replace
 from reportgen.document import Block, Equation, Figure, Paragraph, Plate, Section, Table, Text, plain
 from reportgen.document.layout import Letter
 from reportgen.drawing import Scene
