@@ -297,6 +297,16 @@ def overlap(centres: Complexes, half: Complexes, strokes: Complexes, clearance: 
     return touching
 
 
+def _added_up(counts: NDArray[np.unsignedinteger]) -> NDArray[np.unsignedinteger]:
+    """Return the sums down each column [R, C] of counts; C is a multiple of 4.
+
+    No sum may need more bits than a count has: the counts that share 64 bits are added as one number, several times
+    faster.
+    """
+    together = np.ascontiguousarray(counts).view(np.uint64)
+    return np.cumsum(together, axis=0, out=together).view(counts.dtype)
+
+
 class Ink:
     """Strokes of a figure in cells of paper, with the number of inked cells to the lower left of each corner.
 
@@ -312,11 +322,10 @@ class Ink:
         step = np.arange(len(stroke)) - np.repeat(np.cumsum(steps) - steps, steps)
         dots = settled(strokes[stroke, 0] + along[stroke] * (step / np.maximum(steps - 1, 1)[stroke]) - self.low) / CELL
         self.size = int((high - self.low).real / CELL) + 2, int((high - self.low).imag / CELL) + 2
-        # Counts modulo 2¹⁶ still distinguish boxes from empty ones: a label has fewer cells.
-        inked = np.zeros((self.size[0] + 1, self.size[1] + 1), dtype=np.uint16)
+        rows, columns = (4 * (extent // 4 + 1) for extent in self.size)
+        inked = np.zeros((rows, columns), dtype=np.uint16 if len(dots) < 1 << 16 else np.uint32)
         inked[dots.real.astype(np.intp) + 1, dots.imag.astype(np.intp) + 1] = 1
-        np.cumsum(inked, axis=1, out=inked)
-        self.inked = np.cumsum(inked, axis=0, out=inked)
+        self.inked = _added_up(_added_up(inked).T).T
 
     def touches(self, centres: Complexes, half: Complexes) -> Flags:
         """Return flags of the boxes [N] that touch a stroke, to within half a cell.
@@ -325,7 +334,7 @@ class Ink:
         """
         return np.asarray(self.covered(centres, half) != 0)
 
-    def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.uint16]:
+    def covered(self, centres: Complexes, half: Complexes) -> NDArray[np.unsignedinteger]:
         """Return the number of inked cells that each box covers [N], by centres and half sizes (mm)."""
         cells = settled(np.stack((centres - half, centres + half)) - self.low) / CELL
         x, y = (
