@@ -25,7 +25,17 @@ from reportgen.base.template_folders import is_of_atlas, school_files
 from reportgen.base.typing_mistakes import meant, slip
 from reportgen.base.units import Language, two_readings
 from reportgen.base.words import as_error, close_or_known, language_of
-from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source, plain, read_source
+from reportgen.base.yaml_source import (
+    MappingNode,
+    Node,
+    Scalar,
+    SequenceNode,
+    Source,
+    plain,
+    read_source,
+    read_text,
+    text_in,
+)
 from reportgen.base.yaml_values import at
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -138,19 +148,24 @@ def inputs(path: Path) -> tuple[bytes, dict[str, bytes]]:
     Raises `OSError` for a file that cannot be read.
     """
     content = contents(path)
-    # Most files have no parts, and are not read for it.
-    named = parts.files(read_source(path), path) if b"parts:" in content else []
+    named = parts.files(_source_with(PARTS, path), path)
     of_parts = {file.relative_to(path.parent).as_posix(): contents(file) for file in named if file.is_file()}
     return content, {**words_beside(path), **of_parts}
 
 
 def words_beside(path: Path) -> dict[str, bytes]:
     """Return the files of the school's folder that an assignment file names beside itself, by their relative paths."""
-    named = at(read_source(path).top, ("report", "templates"))
+    named = at(_source_with("templates", path).top, ("report", "templates"))
     if not isinstance(named, Scalar) or named.null or leads_out(path.parent / named.text, path.parent):
         return {}
     files = (file for file in school_files(path.parent / named.text) if not leads_out(file, path.parent))
     return {file.relative_to(path.parent).as_posix(): contents(file) for file in files}
+
+
+def _source_with(key: str, path: Path) -> Source:
+    """Return the nodes of a file; none if its text does not have a key: most files have not, and are not parsed."""
+    text = text_in(path)
+    return read_text(text, str(path)) if isinstance(text, str) and key in text else Source(str(path))
 
 
 def read_model(path: Path, model: type[Model], language: Language | None = None) -> Model:

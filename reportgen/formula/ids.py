@@ -84,6 +84,10 @@ class Name(Record, dict=True):
     def __contains__(self, id: str) -> bool:
         return id.startswith(self._beginning) and self._pattern.fullmatch(id) is not None
 
+    def may_begin(self, word: str) -> bool:
+        """Return False if no id of the family begins with a word, which ends before a dot or with the id."""
+        return word.startswith(self._beginning) or self._beginning.startswith(word)
+
     def only(self, **words: str) -> Name:
         """Return the narrower family that has these words in these places."""
         return Name(_PLACE.sub(lambda place: words.get(place[1], place[0]), self.text))

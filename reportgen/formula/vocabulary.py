@@ -379,9 +379,9 @@ def heads() -> Mapping[str, str]:
 
 @cache
 def rows_of(head: str) -> tuple[VocabularyRow, ...]:
-    """Return the rows of the ids that begin with a word: those of an assignment kind, else the common ones."""
+    """Return the rows of the ids that begin with a word: those of an assignment kind, else of the common ones."""
     if head not in heads():
-        return ROWS
+        return tuple(row for row in ROWS if row.ids.may_begin(head))
     module = import_module(heads()[head])
     KINDS.update(module.KINDS)
     rows: tuple[VocabularyRow, ...] = module.ROWS
