@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from reportgen.balancing.engine_calculation import ORDERS
 from reportgen.balancing.engine_drawings import OUT, UP, banks, crank_at, piston_at
 from reportgen.balancing.engine_solution import SolvedEngine
+from reportgen.base.records import Record
 from reportgen.base.units import significant_decimals
 from reportgen.drawing import Circle, Diagram, Line, Pen, PlottedCurve, Polyline, style
 from reportgen.drawing.animation import (
@@ -51,8 +51,7 @@ CENTRE = Track(np.zeros(1, complex))
 EngineAngles = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class Shaking:
+class Shaking(Record):
     """The forces (N) or couples (N·m) on the frame over a turn [N], as x + iy, by order and for the rotating masses."""
 
     name: str

@@ -7,7 +7,6 @@ those of a counterweight from U and its angle ψ, which is measured from its lin
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -17,6 +16,7 @@ from reportgen.balancing.counterweights import CounterweightRule, CrankRod, cran
 from reportgen.balancing.mistakes import mistakes
 from reportgen.balancing.orders_ledger import enter_orders
 from reportgen.balancing.shaking_force import BalancedTurn, balanced_in, shaking_moment
+from reportgen.base.records import Record
 from reportgen.derivation.equation_sides import image
 from reportgen.derivation.topic_ledger import LedgerHooks
 from reportgen.derivation.unprinted_values import with_rest
@@ -76,8 +76,7 @@ def enter(q: Calculation, analysis: Analysis) -> None:
         entry.over_the_turn()
 
 
-@dataclass(frozen=True)
-class _Entry:
+class _Entry(Record, dict=True):
     """An analysis with its calculation while its balancing is entered."""
 
     q: Calculation

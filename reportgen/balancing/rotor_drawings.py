@@ -5,12 +5,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import partial
 
 from reportgen.balancing import rotor_ids
 from reportgen.balancing.rotor_file import BEARINGS, LEFT, RIGHT
 from reportgen.balancing.rotor_solution import SolvedRotor
+from reportgen.base.records import Record
 from reportgen.base.units import MM, nice_up
 from reportgen.drawing import Arc, Circle, Item, Line, Pen, Scene, style
 from reportgen.drawing.canvas import Canvas, finish, settle
@@ -42,8 +42,7 @@ SENSE = 0.45
 """The radius of the arrow of rotation, as a share of the farthest mass."""
 
 
-@dataclass(frozen=True)
-class PlacedMass:
+class PlacedMass(Record):
     """A mass in the drawing: its name, its place from the axis (m), its station on the axis (m), its pen."""
 
     name: Symbol | str

@@ -7,9 +7,9 @@ need the solution before the ledger has it.
 from __future__ import annotations
 
 import cmath
-from dataclasses import dataclass
 
 from reportgen.balancing.rotor_file import Parameters, RotorMass
+from reportgen.base.records import Record
 
 PARALLEL = 1e-9
 """Two directions with a smaller sine of the angle between them have no intersection."""
@@ -24,8 +24,7 @@ def unbalance(mass: RotorMass) -> complex:
     return mass.m.si * cmath.rect(mass.r.si, mass.angle.si)
 
 
-@dataclass(frozen=True)
-class UnknownPlane:
+class UnknownPlane(Record):
     """The corrections (kg·m) in plane A at a given angle and in plane B, and the place of B from A (m, signed)."""
 
     near: float

@@ -10,7 +10,6 @@ circle's touching points prove that nothing is better.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations
 
@@ -93,8 +92,7 @@ def _crank(linkage: Linkage) -> Crank:
 # --- the curve that the crank sees ------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class CrankCurve:
+class CrankCurve(Record, dict=True):
     """The curve F e^{−iφ}/ω² (kg·m) over a turn as the sum of its harmonics, Σ c_k e^{ikθ}.
 
     θ (rad) is the crank's travel in its direction of rotation from position 1; `harmonics` c_k [N] are in the order of
@@ -323,8 +321,7 @@ FINE = 720
 """Number of places of a turn at which torques and moments with and without counterweights are compared."""
 
 
-@dataclass(frozen=True)
-class BalancedTurn:
+class BalancedTurn(Record, dict=True):
     """The curve seen from the crank, U (kg·m) by each requested rule, and the counterweights that are applied.
 
     These are the counterweight of the first rule, or those of the whole balance of a four-bar; () if they are zero.

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from reportgen.base.errors import Where
+from reportgen.base.records import Record
 from reportgen.base.yaml_places import (
     column,
     column_of,
@@ -31,8 +31,7 @@ _KEY = re.compile(r"(?![-?]\s).*:(?:\s|$)")
 _BODY = re.compile(r"[|>][-+0-9]*")
 
 
-@dataclass(frozen=True)
-class CommentedEntry:
+class CommentedEntry(Record):
     """An entry that is a comment: its key and value, its mark ("" for none), and its text without comment signs."""
 
     key: str

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM, nice_up
 from reportgen.cam import cam_ids
 from reportgen.cam.ledger import HEIGHT, LEAST_POLE, TURN_ON_PAPER
@@ -57,8 +56,7 @@ FARTHEST = 4.0
 """A radius of curvature larger than this many base circles is left out of its diagram."""
 
 
-@dataclass(frozen=True)
-class Graph:
+class Graph(Record):
     """One diagram of the motion on paper: its ordinates (mm) over the abscissae (mm) of a turn, and its axis."""
 
     symbol: Symbol
@@ -70,8 +68,7 @@ class Graph:
         return self.zero + y
 
 
-@dataclass(frozen=True)
-class LawScales:
+class LawScales(Record):
     """The length of a turn on paper (mm), the scales (SI per mm) of s, s′, s″, and the pole distances (mm) of the lower
     two.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, Literal
 
@@ -186,8 +185,7 @@ class Parameters(Part):
 # --- the cam of a file ----------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Designed:
+class Designed(Record):
     """A cam with the choices behind it: the limits, and the least cam within them or None."""
 
     cam: Cam
@@ -386,8 +384,7 @@ def extreme(cam: Cam, phase: str, sign: int) -> tuple[float, float]:
 
 
 @view()
-@dataclass(frozen=True)
-class Judged:
+class Judged(Record):
     """The largest pressure angles (rad) with their cam angles, the least radii of curvature (m) and the largest one."""
 
     rise: tuple[float, float]

@@ -7,9 +7,9 @@ of follower and end and the senses of rotation (`CamKind`) select the formulas.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from functools import lru_cache
 
+from reportgen.base.records import Record
 from reportgen.cam import cam_ids
 from reportgen.formula import PI, Expression, Ref, acos, asin, atan, cos, signed, sin, sqrt, tan
 from reportgen.formula.calculation import Calculation
@@ -17,8 +17,7 @@ from reportgen.formula.constructions import Value
 from reportgen.formula.evaluation import evaluate
 
 
-@dataclass(frozen=True)
-class CamKind:
+class CamKind(Record):
     """Kind of a cam, which selects its formulas; `opposite` and `turn` are the senses of `Cam`."""
 
     translating: bool

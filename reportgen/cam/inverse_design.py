@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM
 from reportgen.cam import formulas
 from reportgen.cam.formulas import valued
@@ -41,8 +40,7 @@ STEPS = 60
 """Number of base circles under an oscillating face that are tried until one is large enough."""
 
 
-@dataclass(frozen=True)
-class CamLimits:
+class CamLimits(Record):
     """Permissible pressure angles (rad) of rise and return, and the least radius of curvature of the profile (m)."""
 
     rise: float | None
@@ -50,8 +48,7 @@ class CamLimits:
     rho: float
 
 
-@dataclass(frozen=True)
-class Touch:
+class Touch(Record):
     """Point where the limit line of a phase touches: cam angle (rad), s and s′ there, and the resulting bound (c in m
     or ψ₀ in rad).
     """
@@ -62,8 +59,7 @@ class Touch:
     bound: float
 
 
-@dataclass(frozen=True)
-class Least:
+class Least(Record):
     """The least cam within the limits (m, rad): s₀ and e of a translating follower, a and ψ₀ of an oscillating one.
 
     `most` is the largest ψ₀ within them.

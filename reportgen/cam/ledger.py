@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.base.units import MM, Given, nice_up
 from reportgen.cam import cam_ids, formulas
 from reportgen.cam.file import Designed, Parameters, designed, positions_of
@@ -54,8 +54,7 @@ LEAST_POLE, MOST_POLE = 5, 30
 KINDS_ON_PAPER = ("length on paper", "reduced velocity on paper", "reduced acceleration on paper")
 
 
-@dataclass(frozen=True)
-class CamSolution:
+class CamSolution(Record, dict=True):
     """The cam of a file at its positions [N], and its ledger."""
 
     given: Parameters

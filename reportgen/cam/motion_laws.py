@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.formula import PI, Expression, Negative, Operand, Ref, as_expression, cos, sin
 from reportgen.formula.evaluation import evaluate
 
@@ -26,8 +26,7 @@ JUMP = 1e-9
 """A smaller jump of V or A is ignored."""
 
 
-@dataclass(frozen=True)
-class Piece:
+class Piece(Record):
     """S, V and A as formulas of x, from x = `start` to `stop`; `node` is the index of a table's node, otherwise −1."""
 
     start: float
@@ -43,8 +42,7 @@ NodeQuantity = Callable[[str, int], Operand]
 """Name of a value of a node: A, V, S or J."""
 
 
-@dataclass(frozen=True)
-class AccelerationGraph:
+class AccelerationGraph(Record, dict=True):
     """An acceleration graph: ordinates `a` [K] over `x` [K] from 0 to 1, linear in between; a repeated x is a jump.
 
     It is integrated twice and scaled to end at S = 1: A = c·a, with V and S at each node [K].
@@ -216,8 +214,7 @@ def _spline(x: Floats, s: Floats) -> Floats:
     return np.linalg.solve(matrix, 6 * np.diff(np.concatenate(([0.0], slope, [0.0]))))
 
 
-@dataclass(frozen=True)
-class Segment:
+class Segment(Record):
     """A part of a law from x = `start` to `stop`, where S goes from `low` to `high` by a law of `SMOOTH`, or rests."""
 
     start: float
@@ -271,8 +268,7 @@ class Segment:
         return over / self.length if order == 1 else over / as_expression(self.length) ** 2
 
 
-@dataclass(frozen=True)
-class FollowerLaw:
+class FollowerLaw(Record, dict=True):
     """A law by its name, its acceleration table or its segments; its `pieces` follow one another from 0 to 1."""
 
     name: str
@@ -317,8 +313,7 @@ def law(name: str) -> FollowerLaw:
 PHASES = ("rise", "far", "return", "near")
 
 
-@dataclass(frozen=True)
-class LawInterval:
+class LawInterval(Record, dict=True):
     """A piece of a turn (rad) in a phase, moving by a `piece` of its law; None in a dwell."""
 
     phase: str
@@ -366,8 +361,7 @@ def _numbered(by: float, rate: Expression) -> Expression:
     return -(by * rate.of) if isinstance(rate, Negative) else by * rate
 
 
-@dataclass(frozen=True)
-class Impact:
+class Impact(Record):
     """A jump of velocity (rigid) or acceleration (soft) at a cam angle (rad), with its size in s′ or s″."""
 
     kind: str
@@ -375,8 +369,7 @@ class Impact:
     jump: float
 
 
-@dataclass(frozen=True)
-class FollowerMotion:
+class FollowerMotion(Record, dict=True):
     """The follower's motion s(φ) over a turn: stroke (m or rad), phase angles (rad), laws of rise and return."""
 
     stroke: float

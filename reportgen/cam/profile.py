@@ -11,13 +11,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import Record
 from reportgen.base.stable_digits import ALIKE, first_greatest
 from reportgen.cam import cam_ids
 from reportgen.cam.formulas import CamKind, enter_lengths, enter_lowest, enter_profile
@@ -28,8 +28,7 @@ from reportgen.formula.calculation import Calculation
 Numbers = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
-class Cam:
+class Cam(Record, dict=True):
     """A cam and its follower, lengths in m.
 
     `r0` is the least radius of the pitch curve, or of the profile of a flat face; `e` the offset of a translating
@@ -162,8 +161,7 @@ class Cam:
         return greatest(value, interval.start, interval.stop)
 
 
-@dataclass(frozen=True)
-class CamProfile:
+class CamProfile(Record, dict=True):
     """A cam over angles φ [N] (rad) with the follower's motion there; other arrays [N] are computed on first use.
 
     Points and normals are in the cam's frame, except `at`.

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
+from reportgen.base.records import Record
 from reportgen.base.template_access import view
 from reportgen.base.units import MM
 from reportgen.cam import cam_ids
@@ -39,8 +40,7 @@ NODES = (16.0, 22.0, 28.0, 28.0, 28.0, 28.0)
 
 
 @view()
-@dataclass(frozen=True)
-class LawView:
+class LawView(Record):
     """The law of a phase: the key of its phrase, and its formulas piece by piece with their ranges of angles."""
 
     phase: str
@@ -51,16 +51,14 @@ class LawView:
 
 
 @view()
-@dataclass(frozen=True)
-class ImpactView:
+class ImpactView(Record):
     """Impacts of one kind, and the angles at which they are."""
 
     rigid: bool
     angles: Inlines
 
 
-@dataclass(frozen=True)
-class RequirementView:
+class RequirementView(Record):
     """A requirement: the key of its phrase, the limit with its sign, the actual value, and whether it holds."""
 
     key: str

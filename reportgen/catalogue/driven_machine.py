@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
 from reportgen.assignment.common import Assignment
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.catalogue import declared_loads
 from reportgen.catalogue.given_data import GivenData
 from reportgen.catalogue.topic_sections import Opening, chapters, entered
@@ -22,8 +21,7 @@ OPENING = ("contents", "given", "scheme", "overview", "foreword", "symbols", "st
 CLOSING = ("conclusion", "references", "checks")
 
 
-@dataclass(frozen=True)
-class KindSections:
+class KindSections(Record):
     """Template sections of a report that differ from kind to kind.
 
     `sizes` and `load` explain the lengths and loads; `summary` follows the accelerations, `course` the kinematic
@@ -37,6 +35,10 @@ class KindSections:
     driver: str = "crank"
 
 
+USUAL = KindSections()
+"""The sections of most kinds."""
+
+
 def outline(
     masses: bool,
     loads: bool,
@@ -44,7 +46,7 @@ def outline(
     *,
     curves: bool = True,
     further: bool = False,
-    words: KindSections = KindSections(),
+    words: KindSections = USUAL,
 ) -> tuple[str, ...]:
     """Return the report's sections in order; without mass and load it ends with the kinematics.
 
@@ -126,7 +128,7 @@ def driven(
     # Loads that a kind sets out by name are its own.
     q.lines = {name: tuple(id for id in lines if id not in further) for name, lines in q.lines.items()}
     own["facts"] = {**own.get("facts", {}), "declared": rows}
-    words = sections or KindSections()
+    words = sections or USUAL
     acts = LoadsByKind.of(of_kind).act
     if words.load == "cycle" and not acts:
         words = replace(words, load="no-gas")

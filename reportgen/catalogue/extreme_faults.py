@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 from reportgen.base.errors import Finding, Where
+from reportgen.base.records import Record
 from reportgen.base.units import Given
 from reportgen.catalogue.extreme_positions import ON_CHORD, SIDES, CrankRocker, ExtremePositions, PivotPlace
 
 
-@dataclass(frozen=True)
-class Selection:
+class Selection(Record):
     """What selects the place of A: a length of the file by its key, of the crank or of the frame (or offset).
 
     Without a length, the best transmission selects it. `side` is the required side of the chord, if there is one.

@@ -21,6 +21,7 @@ from functools import cached_property
 import numpy as np
 
 from reportgen.base.arrays import Flags, Floats
+from reportgen.base.records import Record
 
 SAMPLES = 2001
 """Places on an arc in a search."""
@@ -43,8 +44,7 @@ def crank_angle_between(K: float) -> float:
     return math.pi * (K - 1) / (K + 1)
 
 
-@dataclass(frozen=True)
-class PivotPlace:
+class PivotPlace(Record):
     """A place of A: the side of the chord, and the angle β (rad) from the middle of its arc."""
 
     side: int

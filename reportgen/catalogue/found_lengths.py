@@ -6,12 +6,12 @@ The construction is that of `extreme_positions`; its lines are those of the kind
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Literal
 
 from reportgen.assignment.common import Part
 from reportgen.assignment.fields import Length, SpeedRatio, SwingAngle
 from reportgen.base.errors import Finding
+from reportgen.base.records import Record
 from reportgen.base.units import Given
 from reportgen.catalogue import extreme_formulas as formulas
 from reportgen.catalogue.extreme_faults import Selection, faults_without_place
@@ -44,8 +44,7 @@ class WantedStroke(Part):
     H: Length
 
 
-@dataclass(frozen=True)
-class LengthSearch:
+class LengthSearch(Record):
     """The search for lengths: the group of keys with the `wanted` motion, and the lengths of the file by their keys.
 
     A length is None if it is to be found. Without a wanted motion nothing can be found. `driven` is the key of a rocker

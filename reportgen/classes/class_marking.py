@@ -6,8 +6,6 @@ An unreadable sheet never stops the others, and no student's data are written in
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from dataclasses import field as dataclass_field
 from functools import cached_property, partial
 from itertools import chain
 from pathlib import Path
@@ -47,16 +45,15 @@ from reportgen.marking.marking_scheme import MarkingScheme, key_asked, marking_s
 from reportgen.marking.toleranced_key import key_of
 
 
-@dataclass(frozen=True)
-class Classroom:
+class Classroom(Record, dict=True):
     """The assignments of a class by the stem of their files, opened for marking on demand and cached."""
 
     files: Mapping[str, Path]
     policy: Policy
     language: Language | None
-    people: Mapping[str, RosterEntry] = dataclass_field(default_factory=dict)
+    people: Mapping[str, RosterEntry] = field(default_factory=dict)
     """Roster entries of the students, by the stem of their files."""
-    opened: dict[str, MarkingScheme] = dataclass_field(default_factory=dict)
+    opened: dict[str, MarkingScheme] = field(default_factory=dict)
 
     def scheme(self, name: str) -> MarkingScheme:
         """Return the marking scheme of an assignment; raise `KeyError` for an unknown name."""

@@ -12,7 +12,6 @@ import hashlib
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
@@ -70,8 +69,7 @@ FileState = Literal["new", "changed", "same", "kept"]
 """State of a file: made, made again, unchanged, or kept because it was edited by hand."""
 
 
-@dataclass(frozen=True)
-class StudentFile:
+class StudentFile(Record, dict=True):
     """A student's assignment file: its student, path, state, and its text as drawn.
 
     `top` has the parts in place; `parts` are the files in which those are written.

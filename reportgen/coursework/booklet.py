@@ -7,11 +7,10 @@ Each report is a finished document tree.  A section that begins the task, symbol
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import dropwhile
 from typing import Any
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.case.quantity_wording import sentence
 from reportgen.coursework.symbol_renaming import changed
 from reportgen.document import (
@@ -46,8 +45,7 @@ NAMED = (Section, Equation, Table, Figure, Plate, Reference)
 """Types of nodes that have a key or refer to one."""
 
 
-@dataclass(frozen=True)
-class PartReport:
+class PartReport(Record):
     """Report of a part: its `name` among the parts, its title, its finished tree.
 
     `taken` lists the data from the machine, `lettered` the symbols with the part's index.  `symbols` are rows (symbols,

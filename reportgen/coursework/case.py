@@ -13,7 +13,7 @@ from typing import Any, Self
 import numpy as np
 
 from reportgen.assignment.common import PARTS, AssignedPart, Assignment, LengthOfPart, TakenDatum
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.case import Case, CaseOfParts, DriverMotion, Misconceptions
 from reportgen.case.answer_key import Key, PartOfKey, Span, capitalised
 from reportgen.case.missing_chapters import MissingChapter
@@ -42,8 +42,7 @@ MACHINE = "machine"
 """The name of the first part, the machine."""
 
 
-@dataclass(frozen=True)
-class PartCase:
+class PartCase(Record, dict=True):
     """A part with its case; the coursework does not change either."""
 
     part: AssignedPart

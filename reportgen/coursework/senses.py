@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
+from reportgen.base.records import Record
 from reportgen.case.answer_key import capitalised
 from reportgen.case.quantity_wording import sentence
 from reportgen.case.shafts import Shaft
@@ -22,8 +22,7 @@ SAME = 1e-6
 RPM = 30 / math.pi
 
 
-@dataclass(frozen=True)
-class PartShafts:
+class PartShafts(Record):
     """The shafts of a part, and the keys of its data that equal the machine's, with the machine's keys."""
 
     title: str
@@ -31,8 +30,7 @@ class PartShafts:
     taken: Mapping[str, str]
 
 
-@dataclass(frozen=True)
-class TurningShaft:
+class TurningShaft(Record):
     """A shaft with its sense: 1 anticlockwise, −1 clockwise, 0 if it is known only relative to the `first` one of its
     part.
 

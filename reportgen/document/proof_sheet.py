@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from itertools import count, zip_longest
 from pathlib import Path
 from typing import Any
@@ -16,6 +15,7 @@ from typing import Any
 from jinja2 import Environment, StrictUndefined
 
 from reportgen.base.kinds import SAMPLE
+from reportgen.base.records import Record, field
 from reportgen.base.template_folders import MACHINES, REFERENCE, templates
 from reportgen.base.units import Language
 from reportgen.base.words import sections
@@ -53,8 +53,7 @@ TemplateNames = Callable[[str, Language], Mapping[str, Any]]
 """Returns the names that templates of a kind see in a language, for one machine; {} if the kind is not a machine."""
 
 
-@dataclass(frozen=True)
-class ProofReader:
+class ProofReader(Record):
     """Reads sections in one language, with the values of one machine by their `names`."""
 
     names: Mapping[str, Any]

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from reportgen.base.records import Record
 from reportgen.exercise import file
 from reportgen.exercise.derivation import Derivation, DerivationEquation, Projected, Step, Vector, components
 from reportgen.exercise.point_positions import direction_of, parallel, perpendicular, unit
@@ -67,8 +68,7 @@ def _enter_part(parts: Parts, id: str, rate: str, power: int, base: str, point: 
     return (arm.id, id)
 
 
-@dataclass(frozen=True)
-class AccelerationPath:
+class AccelerationPath(Record):
     """The known vectors of a point's acceleration, its component of unknown magnitude, and the body and base point."""
 
     known: tuple[Vector, ...]

@@ -8,10 +8,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.exercise.acceleration_steps import Parts, about_points, by_slots, enter_accelerations
 from reportgen.exercise.derivation import Derivation, Quantities, Step
 from reportgen.exercise.drive_trains import by_rack, by_rims, by_train
@@ -45,8 +44,7 @@ POSITIONS = 1
 """The position index of the only instant."""
 
 
-@dataclass(frozen=True)
-class Worked:
+class Worked(Record, dict=True):
     """The ledger of an exercise, its layout, and its steps in order; `missing` are requested ids that no step
     computes.
     """

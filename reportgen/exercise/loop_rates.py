@@ -18,6 +18,7 @@ from itertools import combinations
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.exercise.acceleration_steps import Parts
 from reportgen.exercise.derivation import Derivation, Step
 from reportgen.exercise.point_positions import direction_of
@@ -47,8 +48,7 @@ KnownPower = tuple[str, int]
 """A quantity of the derivation and its power: v.A, or ω² as omega.2 with 2."""
 
 
-@dataclass(frozen=True)
-class Reached:
+class Reached(Record):
     """The rate of a point: Σ known quantity × vector + Σ unknown rotation × vector."""
 
     known: Mapping[KnownPower, complex]

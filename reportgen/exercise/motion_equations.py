@@ -13,7 +13,7 @@ from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.exercise.chain_derivatives import RATES, VELOCITY, RateFormulas, derivative
 from reportgen.exercise.closed_form import X_AXIS, closed_form
 from reportgen.exercise.derivation import Step, size_of
@@ -62,8 +62,7 @@ FIGURES = 4
 """Significant digits of the numbers in a system."""
 
 
-@dataclass(frozen=True)
-class VectorSum:
+class VectorSum(Record):
     """Σ vectors = 0, from a loop through a point or from a point whose rate is given."""
 
     point: str

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 from reportgen.assignment import Assignment
 from reportgen.base.errors import Finding, Where
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Given
 from reportgen.exercise import file
 from reportgen.exercise import rate_conditions as on
@@ -351,8 +350,7 @@ def _vector(
 # --- the exercise ---------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Exercise:
+class Exercise(Record):
     """A system in motion at one instant, with the requested quantities."""
 
     given: file.Parameters

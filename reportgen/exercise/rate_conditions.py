@@ -9,7 +9,6 @@ accelerations that is known once the velocities are.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 from reportgen.base.records import Record
 
@@ -27,8 +26,7 @@ class Rates(Record):
 STILL = Rates(0.0, 0j)
 
 
-@dataclass(frozen=True)
-class Velocities:
+class Velocities(Record):
     """The rates of every body."""
 
     bodies: Mapping[int, Rates]

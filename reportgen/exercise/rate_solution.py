@@ -9,12 +9,11 @@ points, conflicts, and instant centres.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.exercise.rate_conditions import GROUND, STILL, Component, Condition, Rates, Velocities
 
 NEGLIGIBLE = 1e-9
@@ -23,8 +22,7 @@ NEGLIGIBLE = 1e-9
 EquationRow = np.ndarray
 
 
-@dataclass(frozen=True)
-class System:
+class System(Record):
     """Points (m) by name, bodies by number with the points that move with them, and conditions in file order."""
 
     points: Mapping[str, complex]
@@ -36,16 +34,14 @@ class System:
         return next((body for body, points in self.bodies.items() if point in points), GROUND)
 
 
-@dataclass(frozen=True)
-class Conflict:
+class Conflict(Record):
     """A condition that contradicts the conditions named in `others`, all by their names in the file."""
 
     name: str
     others: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class Solved:
+class Solved(Record):
     """Rates of all bodies, or the conflicts that exclude them.
 
     `free` [number of free motions, number of unknowns] are the motions that the conditions leave open, over the
@@ -69,8 +65,7 @@ class Solved:
         return bool(np.all(np.abs(self.free @ row) < NEGLIGIBLE * max(float(np.linalg.norm(row)), NEGLIGIBLE)))
 
 
-@dataclass(frozen=True)
-class Unknowns:
+class Unknowns(Record):
     """The unknowns: for each body its turn (times the size of the system) and two components at the middle.
 
     Lengths are measured from the middle of all points in units of their spread, so matrix entries are of order 1.
@@ -139,8 +134,7 @@ def solve_velocities(system: System) -> Solved:
     return _solve(unknowns, driven)[0]
 
 
-@dataclass(frozen=True)
-class Accelerations:
+class Accelerations(Record):
     """Solved accelerations; `velocities` includes the angular velocities that only accelerations determine.
 
     Bodies in `parting` would need a negative ω²: the given accelerations move their points away from each other.
@@ -224,8 +218,7 @@ def _conflicts(names: Sequence[str], matrix: np.ndarray, values: np.ndarray) -> 
 # --- the motion -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class InstantMotion:
+class InstantMotion(Record, dict=True):
     """A system with its velocities and accelerations, each solved on first use."""
 
     system: System

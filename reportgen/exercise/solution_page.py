@@ -5,11 +5,10 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from reportgen.base.placeholders import NO_LETTER
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.template_access import view
 from reportgen.base.units import Given
 from reportgen.case.finished_document import finished
@@ -103,8 +102,7 @@ def names(case: SolvedExercise) -> Mapping[str, Any]:
 
 
 @view()
-@dataclass(frozen=True)
-class GivenItem:
+class GivenItem(Record):
     """A given quantity: the key of its phrase, and the values in the phrase."""
 
     form: str
@@ -116,8 +114,7 @@ class GivenItem:
 
 
 @view()
-@dataclass(frozen=True)
-class BodyItem:
+class BodyItem(Record):
     """A body: its name, the points that move with it, and centre and radius if it is a disc."""
 
     name: str
@@ -127,8 +124,7 @@ class BodyItem:
 
 
 @view()
-@dataclass(frozen=True)
-class JointItem:
+class JointItem(Record):
     """A joint: the key of its phrase, its points, its bodies in words, and a direction."""
 
     form: str
@@ -137,7 +133,6 @@ class JointItem:
     way: Inlines = ()
 
 
-@dataclass(frozen=True)
 class SolutionPage(Solution):
     """An exercise as its page prints it."""
 

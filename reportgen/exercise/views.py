@@ -9,7 +9,6 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from reportgen.base.records import Record
@@ -32,8 +31,7 @@ COORDINATES = ("x", "y")
 
 
 @view()
-@dataclass(frozen=True)
-class StepView:
+class StepView(Record):
     """A step as templates read it.
 
     `sense` is the sense of the body's angular velocity or acceleration in words; `way` is the direction of the point's
@@ -82,8 +80,7 @@ class StepView:
 
 
 @view()
-@dataclass(frozen=True)
-class Unfound:
+class Unfound(Record):
     """Requested quantities that a method alone does not find; the reason is the key of a phrase."""
 
     reason: str
@@ -91,8 +88,7 @@ class Unfound:
 
 
 @view()
-@dataclass(frozen=True)
-class FurtherView:
+class FurtherView(Record):
     """A further solution as templates read it."""
 
     name: str
@@ -100,8 +96,7 @@ class FurtherView:
     unfound: tuple[Unfound, ...]
 
 
-@dataclass(frozen=True)
-class Solution:
+class Solution(Record):
     """A solution of an exercise, step by step: `worked` is one of the solutions of the `case`."""
 
     case: SolvedExercise
@@ -333,8 +328,7 @@ class DrawnAxis(Record):
     end: complex
 
 
-@dataclass(frozen=True)
-class Axes:
+class Axes(Record):
     """The axes of all solutions of an exercise.
 
     All ξ on one line are one axis, whichever step uses it; its η is at the point of its first step.

@@ -9,13 +9,13 @@ measured at the same scale.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from reportgen import catalogue
 from reportgen.assignment import Assignment
+from reportgen.base.records import Record
 from reportgen.case import Case
 from reportgen.derivation.equation_sides import image
 from reportgen.export.quantities import QuantityArray, quantity
@@ -29,8 +29,7 @@ PROBED = 5
 """Number of values of the range, its ends included, that show whether a number changes with it."""
 
 
-@dataclass(frozen=True)
-class Study:
+class Study(Record, dict=True):
     """Assignments that differ in values of parameters; None for a value that `check` rejects."""
 
     variants: Sequence[Assignment | None]

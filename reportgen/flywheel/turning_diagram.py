@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
@@ -12,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 
 NOTHING = 1e-12
 """A torque below this share of the greatest is zero."""
@@ -65,8 +65,7 @@ def added(tables: Sequence[tuple[float, Sequence[StraightPart]]], cycle: float) 
     )
 
 
-@dataclass(frozen=True)
-class TurningDiagram:
+class TurningDiagram(Record, dict=True):
     """Excess of the driving over the resisting torque (N·m) over a cycle (rad), whose mean is zero."""
 
     cycle: float

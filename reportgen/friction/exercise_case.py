@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, ClassVar
 
+from reportgen.base.records import Record
 from reportgen.case import Misconceptions
 from reportgen.case.design_case import DesignCase, DesignPage
 from reportgen.case.result_entries import ResultEntries
@@ -24,8 +25,7 @@ from reportgen.formula.calculation import Calculation
 from reportgen.friction import brake_drawings, exercise_calculations, exercise_drawings, exercise_mistakes
 
 
-@dataclass(frozen=True)
-class FrictionTask:
+class FrictionTask(Record):
     """Functions that make the calculation and the drawings of a task: its scheme, and its force plans if it has any."""
 
     name: str

@@ -17,11 +17,11 @@ machine.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Flags, Floats
+from reportgen.base.records import Record, field
 from reportgen.formula import ids
 from reportgen.friction.bearing_equations import BearingEquations
 from reportgen.machine import GROUND, Joint, Linkage, joints
@@ -38,8 +38,7 @@ MOST_ROUNDS = 40
 """Largest number of rounds: if each halves the change, they converge by then; otherwise the equations are solved."""
 
 
-@dataclass(frozen=True)
-class Friction:
+class Friction(Record):
     """The friction of the joints: radius ρ (m) of the friction circle by pin, coefficient f by the slider of a
     guide.
     """
@@ -58,8 +57,7 @@ class Friction:
         )
 
 
-@dataclass(frozen=True)
-class FrictionForces:
+class FrictionForces(Record):
     """Reactions and balancing torque with friction, and the course of the solution; arrays over positions [N]."""
 
     rounds: tuple[Forces, ...]

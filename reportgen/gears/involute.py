@@ -9,12 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes, Floats
+from reportgen.base.records import Record
 from reportgen.formula.array_evaluation import model
 from reportgen.formula.constructions import Value
 from reportgen.gears import gears_ids
@@ -33,8 +33,7 @@ def crossing(function: Callable[[float], float], low: float, high: float) -> flo
     return middle
 
 
-@dataclass(frozen=True)
-class Wheel:
+class Wheel(Record, dict=True):
     """A wheel of `z` teeth of module `m` (m), cut by a rack shifted by x m, its tips turned to the radius `r_a` (m)."""
 
     rack: Rack

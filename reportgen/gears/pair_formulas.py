@@ -7,11 +7,11 @@ teeth, `pair_calculation` returns such a calculation, and `model` (`formula.arra
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.formula import PI, Operand, Ref, acos, arcinv, cos, sin, tan
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.vocabulary import row
@@ -20,8 +20,7 @@ from reportgen.gears import gears_ids
 WHEELS = (1, 2)
 
 
-@dataclass(frozen=True)
-class Rack:
+class Rack(Record):
     """The basic rack: profile angle (rad), addendum and bottom clearance as multiples of the module."""
 
     alpha: float

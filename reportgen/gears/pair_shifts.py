@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.formula.array_evaluation import model
 from reportgen.formula.calculation import Calculation
 from reportgen.formula.constructions import Value
@@ -44,8 +44,7 @@ class NoPairError(Exception):
         self.code = code
 
 
-@dataclass(frozen=True)
-class PairLimits:
+class PairLimits(Record):
     """The least contact ratio, the least tip thickness (modules), and the greatest |λ| or None."""
 
     epsilon: float = 1.2
@@ -53,8 +52,7 @@ class PairLimits:
     sliding: float | None = None
 
 
-@dataclass(frozen=True)
-class PairCondition:
+class PairCondition(Record):
     """A condition of a wheel (1, 2), or of the pair (0): `actual` [...] is at least `least` [...].
 
     Lengths are compared in units of `unit`, the module (m).
@@ -72,8 +70,7 @@ class PairCondition:
         return np.asarray((self.actual - self.least) / self.unit)
 
 
-@dataclass(frozen=True)
-class GearPair:
+class GearPair(Record, dict=True):
     """A pair by its rack, its module (m), its numbers of teeth and its shifts [2, ...] (modules)."""
 
     rack: Rack
@@ -217,8 +214,7 @@ def least_sliding(pair: GearPair, limits: PairLimits) -> Floats:
     return best
 
 
-@dataclass(frozen=True)
-class Chosen:
+class Chosen(Record):
     """A pair with the choices behind it: limits, rule of its shifts, and the given centre distance."""
 
     pair: GearPair

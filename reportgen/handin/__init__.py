@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import Record, field
 from reportgen.base.units import Language
 from reportgen.base.words import as_problem
 from reportgen.marking.marking_data import Answer, Place, ReadOff, Submission
@@ -26,8 +26,7 @@ Marking tolerates at least this share of a quantity.
 _FIGURES = re.compile(r"[1-9]\d*(?:[.,]\d+)?|0?[.,]0*(\d+)")
 
 
-@dataclass(frozen=True)
-class FileReading:
+class FileReading(Record):
     """The reading of one file of a student: the values by place, and the faults of entries that cannot be read.
 
     A value is in the row's printed unit and has its location in the file; a length on a drawing is in mm at the

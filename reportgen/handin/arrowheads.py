@@ -5,10 +5,9 @@ Arrowheads show where a vector ends, and are not vectors themselves.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.handin.line_set import Lines
 
 SLIMMEST, WIDEST = np.radians(3.0), np.radians(50.0)
@@ -21,8 +20,7 @@ ALIKE = 0.15
 """Largest relative difference in length and angle between the strokes of one arrowhead."""
 
 
-@dataclass(frozen=True)
-class Arrowheads:
+class Arrowheads(Record):
     """Masks: True for each line [M] that is a stroke of an arrowhead, and for each end [M, 2] that has one."""
 
     strokes: np.ndarray

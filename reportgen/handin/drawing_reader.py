@@ -9,12 +9,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.errors import Fault, Location
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import MM
 from reportgen.case.answer_key import Key
 from reportgen.handin import FileReading
@@ -61,8 +60,7 @@ class DrawnLocation(Location):
         return (self.file, 0, round(-self.at.imag), round(self.at.real))
 
 
-@dataclass(frozen=True)
-class WantedPlans:
+class WantedPlans(Record):
     """The plans of an assignment that are searched for in a drawing.
 
     `known` are the key's values and `worlds` a student's own ones (SI, [1] or [N] over the positions, by id).
@@ -136,8 +134,7 @@ def _read_space(drawn: DrawnLines, file: str, wanted: WantedPlans) -> FileReadin
     return _Reading(best, wanted.key, file, drawn.space).read()
 
 
-@dataclass(frozen=True)
-class _Search:
+class _Search(Record):
     """The lines of a drawing in mm, and the plans found among them."""
 
     unit: float
@@ -185,8 +182,7 @@ def _with_own(plans: FoundPlans, shapes: Sequence[PlanShape], lines: Lines, labe
 # --- values of the vectors ------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _Reading:
+class _Reading(Record):
     search: _Search
     key: Key
     file: str

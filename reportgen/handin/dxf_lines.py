@@ -43,8 +43,7 @@ class DrawnText(Record):
     height: float
 
 
-@dataclass(frozen=True)
-class DrawnLines:
+class DrawnLines(Record):
     """All straight lines [M, 2] in the model space of a drawing and its texts, in its own units.
 
     `unit` is the drawing unit that the file names (mm), None if it names no known one. `notes` report ignored content.

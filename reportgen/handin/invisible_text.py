@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
 
+from reportgen.base.records import Record, field
 from reportgen.handin.word_nodes import XmlNode
 
 SMALLEST = 8
@@ -26,8 +26,7 @@ _DEEPEST = 20
 Colour = tuple[int, int, int]
 
 
-@dataclass(frozen=True)
-class Styles:
+class Styles(Record):
     """The styles of a file by their ids, its defaults, and the style of plain paragraphs."""
 
     by_id: Mapping[str, XmlNode] = field(default_factory=dict)

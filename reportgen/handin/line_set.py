@@ -7,10 +7,11 @@ starts, M … 2 M − 1 the ends.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+
+from reportgen.base.records import Record
 
 CROWD = 40
 """Largest number of ends near another one that are paired with it; more are a hatching."""
@@ -18,8 +19,7 @@ MOST_PAIRS = 400_000
 """Largest number of pairs of lines that share an end; a drawing of plans has fewer."""
 
 
-@dataclass(frozen=True)
-class Lines:
+class Lines(Record, dict=True):
     """Lines [M, 2] (complex, mm) of a drawing, with ends within ±`error` (mm) of their right places in each direction.
 
     `parts` are the pieces of each line by the numbers of drawn lines: its own number, or the numbers of a run of

@@ -8,12 +8,11 @@ if the odds are `BY_CHANCE` against chance and `BEYOND_DOUBT` against every othe
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.handin.line_set import Lines
 from reportgen.handin.plan_fit import ANYWHERE, FEWEST_CORNERS, LONG, SEEN, Beside, Fit, fits, fitted, named
 from reportgen.handin.plan_labels import TITLE, Labels, names_of
@@ -40,8 +39,7 @@ SHARED = 1 / 3
 UNLABELLED = Labels(())
 
 
-@dataclass(frozen=True)
-class FoundPlans:
+class FoundPlans(Record):
     """The plans found with certainty, groups of fits that share a place, and the deviation of drawn ends (mm).
 
     The `deviation` is the standard deviation in each direction.
@@ -140,8 +138,7 @@ def _common_scales(plans: Sequence[Fit], judge: _Judge) -> dict[str, float]:
     return scales
 
 
-@dataclass(frozen=True)
-class _Judge:
+class _Judge(Record, dict=True):
     lines: Lines
     shapes: int
     deviation: float

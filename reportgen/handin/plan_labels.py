@@ -8,11 +8,11 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.handin.dxf_lines import DrawnText
 from reportgen.handin.plan_fit import Fit
 from reportgen.handin.plan_shapes import PlanShape
@@ -42,8 +42,7 @@ def spoken(text: str) -> str:
     return "".join(one for one in letters if not unicodedata.combining(one))
 
 
-@dataclass(frozen=True)
-class Labels:
+class Labels(Record, dict=True):
     """The texts of a drawing, in mm; `words` are words for “position”, and `labels` gives the positions by label."""
 
     texts: tuple[DrawnText, ...]

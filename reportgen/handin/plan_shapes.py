@@ -81,8 +81,7 @@ class SketchedVector(Record):
     drawn: bool = True
 
 
-@dataclass(frozen=True)
-class PlanSketch:
+class PlanSketch(Record):
     """A plan independent of its values, at the first `count` positions."""
 
     scale: str

@@ -9,11 +9,11 @@ from __future__ import annotations
 import posixpath
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
 from reportgen.base.errors import Fault, Location
+from reportgen.base.records import Record
 from reportgen.handin.covered_text import covered_runs
 from reportgen.handin.invisible_text import Styles, mark_unseen
 from reportgen.handin.word_nodes import XmlNode, parse
@@ -43,8 +43,7 @@ _CODES = {
 PICTURES = frozenset({"w:drawing", "w:pict"})
 
 
-@dataclass(frozen=True)
-class WordFile:
+class WordFile(Record, dict=True):
     """A checked file: its package, the part with its text, and the text as a tree."""
 
     path: Path

@@ -46,8 +46,7 @@ def wrong_vectors(plans: FoundPlans, lines: Lines, heads: np.ndarray, labels: La
     return tuple(wrong for plan, sure in several for wrong in search.of(plan, sure))
 
 
-@dataclass(frozen=True)
-class _Search:
+class _Search(Record):
     lines: Lines
     heads: np.ndarray
     labels: Labels

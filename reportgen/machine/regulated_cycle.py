@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 
 
-@dataclass(frozen=True)
-class RegulatedCycle:
+class RegulatedCycle(Record):
     """The regulated cycle over angles φ [N] (rad, in the direction of rotation); all its arrays are [N].
 
     `torque` M_r and `constant` M_c (N·m), `inertia` J_r and `moment` J_d (kg·m²), `work` A, `upper` a and

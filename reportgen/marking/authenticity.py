@@ -15,12 +15,11 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import vocabulary
 from reportgen.formula.evaluation import evaluate
@@ -76,8 +75,7 @@ TENTH = 0.1
 """Step (mm) to which lengths on paper are read if they show it; otherwise they are read to 1 mm or 0.5 mm."""
 
 
-@dataclass(frozen=True)
-class Classmate:
+class Classmate(Record):
     """Another student's assignment, and the sheet submitted for it."""
 
     key: Key

@@ -10,12 +10,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.case import Case
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula.ledger import Ledger
@@ -307,8 +306,7 @@ def compare(case: Case, sheet: Path, hint: bool = False) -> tuple[tuple[str, ...
     return compared(scheme, submission, hint)
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(Record):
     """A submission compared with its assignment, for its student."""
 
     scheme: MarkingScheme

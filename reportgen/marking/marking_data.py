@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Container, Iterable, Mapping
-from dataclasses import dataclass, field
 from enum import StrEnum
 
 from reportgen.base.errors import Location, Problem
-from reportgen.base.records import Record
+from reportgen.base.records import Record, field
 from reportgen.case.answer_key import Key
 from reportgen.document import Inlines
 
@@ -35,8 +34,7 @@ class ReadOff(Record):
     own: float
 
 
-@dataclass(frozen=True)
-class Submission:
+class Submission(Record):
     """A filled answer sheet: its values by place; cells that could not be read are `problems`.
 
     `notes` are other findings: rows and positions that the assignment does not ask for, values of formulas, numbers
@@ -200,8 +198,7 @@ TAKEN = "taken"
 """Additional warning if marks were deducted."""
 
 
-@dataclass(frozen=True)
-class Marking:
+class Marking(Record):
     """All verdicts on a submission, in the order of the key's rows, and the findings for the instructor.
 
     `days_late` counts the days begun since it was due. `unwritten` lists the files for which no feedback could be

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, field, replace
 from reportgen.case import Case, CaseOfParts, Misconceptions
 from reportgen.case.answer_key import Key, KeyRow, Role
 from reportgen.formula import Product, Ref, vocabulary
@@ -25,8 +24,7 @@ ALMOST = 1e-12
 """Relative allowance for rounding in a comparison with a band."""
 
 
-@dataclass(frozen=True)
-class MarkingScheme:
+class MarkingScheme(Record, dict=True):
     """An assignment prepared for marking."""
 
     key: Key

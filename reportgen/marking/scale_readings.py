@@ -8,11 +8,10 @@ velocity of the plan grows. The number alone does not decide; the values read fr
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.case.answer_key import Role
 from reportgen.formula import refs, vocabulary
 from reportgen.formula.evaluation import evaluate
@@ -100,8 +99,7 @@ def charged_for_scales(working: Working, cells: Cells) -> dict[Place, Marked]:
     return charged
 
 
-@dataclass(frozen=True)
-class _Possible:
+class _Possible(Record):
     """The values (SI) that open scales may have for a student.
 
     `all_values` has all values (SI) [N] without the scales, `stated` the written scales (SI).

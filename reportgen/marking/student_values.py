@@ -6,13 +6,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, field, replace
 from reportgen.case.answer_key import KeyRow, Role
 from reportgen.formula import Expression, ids, refs, vocabulary
 from reportgen.formula.evaluation import evaluate
@@ -35,8 +34,7 @@ class ScaleReading(NamedTuple):
     own: bool
 
 
-@dataclass(frozen=True)
-class Working:
+class Working(Record, dict=True):
     """The values of a sheet in SI, [N] or [1], by id of the row; NaN if no value is given.
 
     Lengths on paper are converted to the report's scales: the same vector, drawn at another μ. `scales` are those of

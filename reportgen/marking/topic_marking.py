@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 from reportgen.formula.ledger import Ledger
 
@@ -19,8 +19,7 @@ def _itself(ledger: Ledger, id: str) -> str:
     return id
 
 
-@dataclass(frozen=True)
-class MarkHooks:
+class MarkHooks(Record):
     """Hooks for values that a student finds from the positions alone, whereas the key integrates or reads a curve."""
 
     errors_of_positions: Callable[[Ledger], Mapping[str, np.ndarray]] = _no_errors

@@ -10,13 +10,13 @@ there the motion is integrated in time (`time_integration`).
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.machine.analysis import Machine, breaks
 from reportgen.machine.cycle_torque import CycleTorque
 from reportgen.machine.load_laws import FULL_TURN
@@ -73,8 +73,7 @@ def tail(values: Floats) -> float:
 # --- the machine over the way ------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class ReducedTravel:
+class ReducedTravel(Record):
     """A path between rising cycle angles `edges` (rad) [n + 1], with values at the nodes in its n parts [n, s].
 
     `angle` (rad) of the nodes; `measure` (rad), dφ/dx times the length of the part, so that dT = M·measure over 0…1; J,
@@ -100,8 +99,7 @@ class ReducedTravel:
         return ReducedTravel(self.edges[first : last + 1], **within, at_edges=(inertia, slope, torque))
 
 
-@dataclass(frozen=True)
-class ReducedMachine:
+class ReducedMachine(Record, dict=True):
     """A machine with additional inertia on its crank: `added` moment of inertia (kg·m²) of motor, gear, flywheel.
 
     `loss` is the torque that friction takes from its crank, if any joint has friction.
@@ -169,8 +167,7 @@ class ReducedMachine:
 # --- the equation of energy --------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class EnergyAlong:
+class EnergyAlong(Record):
     """T (J) along a path: at its edges [n + 1] and at the nodes in its parts [n, s]."""
 
     edges: Floats

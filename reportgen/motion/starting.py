@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.motion.drives import Drive
 from reportgen.motion.energy_equation import PARTS, SAME_ANGLE, ReducedMachine
 from reportgen.motion.steady_running import (
@@ -29,8 +29,7 @@ NEAR_ENOUGH = np.radians(1.0)
 MOST_SWINGS = 50
 
 
-@dataclass(frozen=True)
-class StartFromRest:
+class StartFromRest(Record):
     """A start from rest: its run, and the indices of the ends of its cycles among the samples.
 
     `turns_back` are the cycle angles (rad) at which loads stronger than the drive push the crank back.

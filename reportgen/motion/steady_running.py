@@ -7,14 +7,13 @@ then ω = √(2T/J),  ε = (M − ½ω²J′)/J,  dt = dφ/ω.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from reportgen.base.arrays import Floats
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.motion.drives import ConstantDrive, Drive
 from reportgen.motion.energy_equation import (
     LEAST_ENERGY,
@@ -79,8 +78,7 @@ class NoMotionError(Exception):
 # --- a run -------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class MotionRun:
+class MotionRun(Record):
     """A run of a machine over samples [K]: the edges of its path and the nodes between them.
 
     `angle` φ (rad), J and J′ (kg·m²), M_r and M_d (N·m), T (J), ω (rad/s), ε (rad/s²) and the time t (s) from its
@@ -215,16 +213,14 @@ def passage(
 # --- steady motion -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class ExtremeSpeed:
+class ExtremeSpeed(Record):
     """The greatest or the least speed (rad/s) and the cycle angle (rad) where it is."""
 
     speed: float
     angle: float
 
 
-@dataclass(frozen=True)
-class SteadyMotion:
+class SteadyMotion(Record):
     """The steady motion over one cycle.
 
     `fastest` and `slowest` come from the polynomials of the parts; `mean` = (ω_max + ω_min)/2 (rad/s), `unevenness` δ =

@@ -9,11 +9,11 @@ where the crank comes to rest.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 from reportgen.motion.drives import Drive
 from reportgen.motion.energy_equation import STAGES, A, B, C, ReducedMachine, tail
 
@@ -41,8 +41,7 @@ class UnsettledError(Exception):
         self.angle = angle
 
 
-@dataclass(frozen=True)
-class TimeStep:
+class TimeStep(Record):
     """A step: its `duration` (s), φ (rad) and ω (rad/s) at its nodes [s] and at its end, and the `error` of ω there."""
 
     duration: float
@@ -53,16 +52,14 @@ class TimeStep:
     error: float
 
 
-@dataclass(frozen=True)
-class Leg:
+class Leg(Record):
     """The steps to the next edge, or to the place before it where the crank `rests`."""
 
     steps: tuple[TimeStep, ...]
     rests: bool
 
 
-@dataclass(frozen=True)
-class TimeStepper:
+class TimeStepper(Record):
     """A machine under a drive; `sense` is +1 while the crank moves forward, −1 while it moves back."""
 
     body: ReducedMachine

@@ -5,12 +5,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.machine.analysis import Analysis, Machine
 from reportgen.machine.force_analysis import inertia_loads, solve_forces, virtual_work_torque, weights
 from reportgen.machine.kinematics import solve_motion
@@ -33,8 +32,7 @@ WheelState = Literal["", "wheel"]
 """Without the flywheel, and with it."""
 
 
-@dataclass(frozen=True)
-class TrueMotion:
+class TrueMotion(Record):
     """The true motion of a machine: its steady motion `alone`, and `wheeled` with the flywheel if it has one.
 
     `drive` is reduced to the crank, `mean` is the mean of the reduced torque (N·m), `wheel` J_d (kg·m²); `started` and

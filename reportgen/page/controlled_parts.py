@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.base.errors import Where
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import put
@@ -36,8 +35,7 @@ _NUMBER = re.compile(rf"\s*({NUMBER})(| .*|/.*)")
 Bar = tuple[str, str]
 
 
-@dataclass(frozen=True)
-class ControlledParts:
+class ControlledParts(Record):
     """The bars (each by the points at its ends) and the points that one value controls."""
 
     bars: tuple[Bar, ...] = ()

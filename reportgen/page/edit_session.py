@@ -19,7 +19,7 @@ from reportgen.assignment import parts
 from reportgen.base.errors import Fault, Location, Problem, Where
 from reportgen.base.files import contents, renew_file
 from reportgen.base.kinds import kinds, title
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_source import (
@@ -66,8 +66,7 @@ SCRIPTS = "live.js", *FIELDS, *PULLED
 STYLES = "live.css", "edit.css", "notices.css", "pull.css", "preview.css"
 
 
-@dataclass(frozen=True)
-class Change:
+class Change(Record):
     """The file before and after a change."""
 
     before: bytes

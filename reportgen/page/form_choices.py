@@ -7,7 +7,6 @@ become keys again.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from reportgen import catalogue
 from reportgen.assignment.checks import OneOf
@@ -15,6 +14,7 @@ from reportgen.assignment.common import PARTS, Kind
 from reportgen.assignment.fields import UNIT_KEY
 from reportgen.assignment.schema import Schema, alternatives, file_schema, places, tables_at
 from reportgen.base.errors import Location, Where
+from reportgen.base.records import Record
 from reportgen.base.yaml_comments import CommentedEntry, remarks
 from reportgen.base.yaml_edit import EditError, with_value
 from reportgen.base.yaml_places import content_end, is_flow, line_end, line_start, newline, read_nodes
@@ -28,8 +28,7 @@ HERE = Location("")
 SHAPES = {"object": MappingNode, "array": SequenceNode}
 
 
-@dataclass(frozen=True)
-class Forms:
+class Forms(Record):
     """The forms that a table may have; the value at the key `tag` says which."""
 
     root: Schema

@@ -18,7 +18,7 @@ from reportgen.assignment.schema import Schema, alternatives, alternatives_to, c
 from reportgen.base.errors import Where
 from reportgen.base.field_words import FieldWords, choice_words, field_words, group_titles
 from reportgen.base.kinds import titles
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import Language
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, flow, path_text
@@ -28,8 +28,7 @@ NEVER = ("kind",)
 """Keys without a field: another kind would make it another file."""
 
 
-@dataclass(frozen=True)
-class FieldLine:
+class FieldLine(Record):
     """A field at one place, on one line; `look` is `text`, `quantity`, `number`, `choice`, `list` or `date`."""
 
     where: Where
@@ -61,8 +60,7 @@ class FieldLine:
         return f"f:{path_text(self.where)}"
 
 
-@dataclass(frozen=True)
-class FieldGroup:
+class FieldGroup(Record):
     """Fields below one title: a section of the file, a group of keys, an item of a list, a part."""
 
     where: Where

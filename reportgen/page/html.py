@@ -11,7 +11,6 @@ import hashlib
 import json
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
@@ -19,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 from reportgen import document as tree
 from reportgen.base.errors import TypesetterError
 from reportgen.base.languages import setting_of
+from reportgen.base.records import Record
 from reportgen.base.template_folders import templates
 from reportgen.document import layout
 from reportgen.document.alt_text import figure_text
@@ -42,16 +42,14 @@ MOVING_STYLES, MOVING_SCRIPTS = ("moving.css",), ("labels.js", "moving.js")
 """Styles and scripts for panels."""
 
 
-@dataclass(frozen=True)
-class WrittenReport:
+class WrittenReport(Record):
     """The report as elements, with the style sheet's rules for its pens and papers."""
 
     body: str
     rules: str
 
 
-@dataclass(frozen=True)
-class Panel:
+class Panel(Record):
     """Animated panel of a page: its title, its elements, their rules, the samples as JSON.
 
     Its ids begin with its `own` name, "" for the machine's.
@@ -64,8 +62,7 @@ class Panel:
     data: str
 
 
-@dataclass(frozen=True)
-class Live:
+class Live(Record):
     """Data of a page that is renewed while it is read: its words (`live` in `words.yaml`), its revisions."""
 
     words: Mapping[str, str]

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.atlas_words import machine_source
+from reportgen.base.records import Record
 from reportgen.base.template_folders import (
     DEFAULT_LANGUAGE,
     REFERENCE,
@@ -35,8 +35,7 @@ _SENTENCE = re.compile(r".*?(?=[;.](?:\s|$)|$)")
 _NEEDS_FILES = re.compile(r"(?m)^\s*-?\s*file: ")
 
 
-@dataclass(frozen=True)
-class CardDrawing:
+class CardDrawing(Record):
     """The drawing of a kind: its box, the style sheet's rules of its pens, its elements."""
 
     box: str
@@ -44,16 +43,14 @@ class CardDrawing:
     elements: str
 
 
-@dataclass(frozen=True)
-class Sample:
+class Sample(Record):
     """An example of a kind with the first sentence of its remark, which is in English."""
 
     name: str
     remark: str
 
 
-@dataclass(frozen=True)
-class Card:
+class Card(Record):
     """A kind as the page offers it; `terms` are the words by which the kind is found."""
 
     kind: str

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from reportgen import catalogue
 from reportgen.base.errors import ReportgenError
 from reportgen.base.kinds import kinds
+from reportgen.base.records import asdict
 from reportgen.base.template_folders import is_users_machine
 from reportgen.page import html
 from reportgen.page.html import Live

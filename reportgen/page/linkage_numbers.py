@@ -7,12 +7,11 @@ the file again.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from reportgen.base.arrays import Complexes
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.machine import Crank, Group, Guide, Linkage, Triad
 
 SAME = 1e-9
@@ -87,8 +86,7 @@ def rebuilt(linkage: Linkage, given: Complexes) -> Linkage:
     return replace(linkage, ground=ground, driver=driver, groups=tuple(groups), points=points)
 
 
-@dataclass(frozen=True)
-class Course:
+class Course(Record):
     """How the numbers of a linkage [N] follow one value, by their differences at `-step` and `+step`.
 
     A number follows as (a + bh)/(1 + ch), which is exact for a sum, a product and a quotient, or as a parabola where

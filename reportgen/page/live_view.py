@@ -9,13 +9,14 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
 from functools import partial
 from typing import Any
 
 from reportgen import document as tree
 from reportgen.base.errors import AssignmentError, ReportgenError
-from reportgen.base.records import replace
+from reportgen.base.records import Record, field, replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.units import Language
 from reportgen.base.words import load_words, spoken, unexpected
@@ -33,8 +34,7 @@ LONGEST = 5.0
 """Longest time (s) that a report waits for pages that are being made."""
 
 
-@dataclass(frozen=True)
-class Revision:
+class Revision(Record):
     """Current content of a page; `moving` and `report` count how often each of them has changed."""
 
     language: Language
@@ -79,9 +79,9 @@ class LiveSession:
     opens: Callable[[], Case]
     language: Language | None = None
     tell: Callable[[Case, tree.Document], None] = lambda case, document: None
-    changed: threading.Condition = field(default_factory=threading.Condition)
+    changed: threading.Condition = dataclass_field(default_factory=threading.Condition)
     closed: bool = False
-    touched: threading.Event = field(default_factory=threading.Event)
+    touched: threading.Event = dataclass_field(default_factory=threading.Event)
     """Set when the form itself has changed the file."""
 
     def __post_init__(self) -> None:

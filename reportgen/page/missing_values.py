@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from reportgen.base.errors import Location, Problem, Where
+from reportgen.base.records import Record
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, path_text
 from reportgen.case import Case
@@ -16,8 +17,7 @@ FEW = 3
 """Largest number of alternatives that are named in words; with more, buttons show the keys alone."""
 
 
-@dataclass(frozen=True)
-class WantedKey:
+class WantedKey(Record):
     """A key that is missing: its place, its name in words, and as it is written in the file."""
 
     where: Where
@@ -25,8 +25,7 @@ class WantedKey:
     key: str
 
 
-@dataclass(frozen=True)
-class MissingRow:
+class MissingRow(Record):
     """Chapters that need the same: one key of each group. Without chapters, the whole report needs them."""
 
     chapters: tuple[str, ...]

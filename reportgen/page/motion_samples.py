@@ -8,12 +8,12 @@ Motion repeats from turn to turn; forces continue through the cycle.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from reportgen.base.records import Record, field
 from reportgen.base.units import MM
 from reportgen.case import MachineAnalysis
 from reportgen.derivation import enter_motion, enter_plans
@@ -88,8 +88,7 @@ def animation(case: MachineAnalysis) -> Animation:
     return Samples(case).animation()
 
 
-@dataclass(frozen=True)
-class Samples:
+class Samples(Record, dict=True):
     """A case at the samples of its cycle.
 
     Values in `kept` (angles, scales, boxes) are chosen once, by name. A slightly changed machine is sampled with the

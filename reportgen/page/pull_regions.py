@@ -8,7 +8,6 @@ Whether the linkage runs is found at each place. The checks of the whole file ar
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
 from pathlib import Path
@@ -19,7 +18,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.base.arrays import Complexes, Flags
 from reportgen.base.errors import ReportgenError, Where
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.yaml_source import Source
 from reportgen.catalogue import assembly_checks
 from reportgen.catalogue.assembly_checks import WHOLE_TURN, DriverTravel
@@ -37,8 +36,7 @@ SPARSE = 3
 """Steps between the places at which the whole file is checked first."""
 
 
-@dataclass(frozen=True)
-class Requirement:
+class Requirement(Record):
     """What a machine must do: go through its `travel`, or assemble at single `places` of the driver (rad, or m)."""
 
     travel: DriverTravel = WHOLE_TURN
@@ -73,8 +71,7 @@ class PulledPlace(Protocol):
     def ways(self, offsets: np.ndarray) -> np.ndarray: ...
 
 
-@dataclass(frozen=True)
-class FileChecks:
+class FileChecks(Record, dict=True):
     """The checks of a file for other values of a pull; faults of the file as it is are ignored."""
 
     source: Source

@@ -8,7 +8,6 @@ out.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
@@ -16,6 +15,7 @@ import numpy as np
 
 from reportgen import catalogue
 from reportgen.base.errors import Where
+from reportgen.base.records import Record
 from reportgen.base.units import measures
 from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.machine.analysis import Machine
@@ -28,8 +28,7 @@ ALONG = 1e-6
 """Sine of the angle between the shifts of an end below which two values move it along one line."""
 
 
-@dataclass(frozen=True)
-class AnchorValue:
+class AnchorValue(Record):
     """A value of a file that moves the end of a coil by `shift` (m) for a unit of it."""
 
     where: Where
@@ -39,8 +38,7 @@ class AnchorValue:
     shift: complex
 
 
-@dataclass(frozen=True)
-class KnownAnchor:
+class KnownAnchor(Record):
     """An end of a coil at a place (m) of the frame, and the one or two values that move it."""
 
     place: complex
@@ -87,8 +85,7 @@ def known_anchors(source: Source, path: Path) -> Mapping[str, KnownAnchor]:
     return {name: anchor for name, anchor in known.items() if anchor.values}
 
 
-@dataclass(frozen=True)
-class AnchorPull:
+class AnchorPull(Record, dict=True):
     """The end of a coil that is pulled from its place `start` (m) of the frame, and the values that follow."""
 
     start: complex

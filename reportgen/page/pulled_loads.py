@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from reportgen import catalogue
 from reportgen.base.arrays import Complexes
 from reportgen.base.errors import Where
+from reportgen.base.records import Record
 from reportgen.base.units import measures
 from reportgen.base.yaml_source import MappingNode, Source
 from reportgen.machine.analysis import Machine, motion_at
@@ -32,8 +32,7 @@ SAME = 1e-6
 """Relative difference below which two forces are equal."""
 
 
-@dataclass(frozen=True)
-class LoadValue:
+class LoadValue(Record):
     """A value of a file on which a load depends: its size in proportion, or with `turn` (rad per unit) its angle."""
 
     where: Where
@@ -103,8 +102,7 @@ def _turn(before: Complexes, after: Complexes, typed: TypedNumber, by: float) ->
     return 0.0 if grown else None
 
 
-@dataclass(frozen=True)
-class LoadPull:
+class LoadPull(Record):
     """The arrow of a load that is pulled by its tip, and the values that follow.
 
     The arrow begins at `start` (m) with the `force` (N) there; `scale` is the force (N) of a metre of it.

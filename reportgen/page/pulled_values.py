@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Protocol
@@ -20,7 +19,7 @@ from reportgen import catalogue
 from reportgen.assignment.fields import RANGE_KEY, UNIT_KEY
 from reportgen.assignment.schema import file_schema, places
 from reportgen.base.errors import Location, Where
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.units import NUMBER
 from reportgen.base.yaml_source import MappingNode, Node, Scalar, SequenceNode, Source
 from reportgen.base.yaml_values import at, put
@@ -48,8 +47,7 @@ USUAL_SHARES = "0.50", "0.00"
 _TYPED = re.compile(rf"\s*({NUMBER}\s*/\s*)?({NUMBER})(.*)", re.DOTALL)
 
 
-@dataclass(frozen=True)
-class TypedNumber:
+class TypedNumber(Record):
     """A number as typed; of a ratio such as 1/3.6 the lower one, after `over`."""
 
     over: str
@@ -100,8 +98,7 @@ class TypedNumber:
         return min(max(inward, low), high)
 
 
-@dataclass(frozen=True)
-class PlacingValue:
+class PlacingValue(Record):
     """A value of a file, the `points` that it places, and how the numbers of the linkage follow it."""
 
     where: Where
@@ -206,8 +203,7 @@ def bounds(source: Source, where: Where, typed: TypedNumber) -> tuple[float, flo
     return -np.inf, np.inf
 
 
-@dataclass(frozen=True)
-class Pull:
+class Pull(Record, dict=True):
     """A point that is pulled at one coordinate of the driver (rad, or m of a slide), and the values that follow.
 
     `start` are the numbers of the values, in their own units, for which the linkage was made.

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 from reportgen.drawing.animation import BarScale, Chart, MovingItem, TimedRun
 from reportgen.formula import Symbol
@@ -46,8 +46,7 @@ def _no_values(report: ReportContext, motion: Motion) -> Iterator[tuple[Symbol, 
     yield from ()
 
 
-@dataclass(frozen=True)
-class LayerHooks:
+class LayerHooks(Record):
     """The layers, charts, runs and numbers of a topic on the page.
 
     `with_forces(report, analysis, scale, per, turn)` yields items at the samples: `scale` is mm per metre, `per`

@@ -9,7 +9,6 @@ import io
 import tempfile
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from itertools import groupby
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,7 @@ from reportgen.assignment.student_copy import handed_out
 from reportgen.base import units
 from reportgen.base.errors import AssignmentError, Problem, ReportgenError
 from reportgen.base.files import contents, put_file
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.template_folders import search_path
 from reportgen.base.words import load_words, speak
 from reportgen.case.answer_key import Key, KeyRow
@@ -64,8 +63,7 @@ TypedTexts = Mapping[tuple[str, int], str]
 """Texts as typed, by id and position."""
 
 
-@dataclass(frozen=True)
-class Opened:
+class Opened(Record):
     """A student's assignment, prepared for sheets and checks."""
 
     scheme: MarkingScheme

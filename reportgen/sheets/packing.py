@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import accumulate
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.drawing.drawing_sheet import GAP, PlacedScene, Room, TooLargeError
 from reportgen.drawing.plates import DUST, Arranged, DrawingPlate
 
@@ -29,8 +29,7 @@ STEP = 4.0
 PlateRow = list[tuple[DrawingPlate, Arranged]]
 
 
-@dataclass(frozen=True)
-class PlateColumn:
+class PlateColumn(Record, dict=True):
     """Rows of plates with a common width."""
 
     width: float

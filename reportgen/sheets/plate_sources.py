@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 from reportgen.base.records import Record
@@ -25,8 +24,7 @@ SEGMENT = 2
 """Decimals of lengths on paper, mm."""
 
 
-@dataclass(frozen=True)
-class Sources:
+class Sources(Record):
     """The sources of plates: a report, and the same report with small figures, which are then enlarged.
 
     With `every`, each plan has its own plate; those of velocities and accelerations use the scales of the worked plans.

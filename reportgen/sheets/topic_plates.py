@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
+from reportgen.base.records import Record
 from reportgen.base.topics import HookModule
 from reportgen.sheets.plate_sources import Drawn, Sources
 
@@ -12,8 +12,7 @@ DrawPlates = Callable[[Sources], Iterator[Drawn]]
 """Draws the plates of one sort."""
 
 
-@dataclass(frozen=True)
-class PlateHooks:
+class PlateHooks(Record):
     """Plates of a topic: among those of the forces, and in a separate set with the topic's name."""
 
     before_bodies: tuple[DrawPlates, ...] = ()

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -63,8 +62,7 @@ class PlacedJoint(Record):
         return ChainJoint(self.links, higher=bool(self.profiles))
 
 
-@dataclass(frozen=True)
-class PlacedJoints:
+class PlacedJoints(Record, dict=True):
     """The joints of a mechanism at their places, with the numbers of links that replace higher pairs."""
 
     joints: tuple[PlacedJoint, ...]

@@ -9,13 +9,12 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from itertools import combinations, pairwise
 
 import numpy as np
 
-from reportgen.base.records import replace
+from reportgen.base.records import Record, replace
 from reportgen.base.stable_digits import settled
 from reportgen.drawing import Arc, Arrow, Circle, Hatch, Item, Label, Line, Pen, Polyline, Scene, style
 from reportgen.drawing.canvas import Canvas, finish
@@ -56,8 +55,7 @@ AMONG_OTHERS = Pen(0.5, style.BLUE, style.DASHED)
 """Pen of an emphasized link beside links in black, from which it differs without colour, too."""
 
 
-@dataclass(frozen=True)
-class Sketch:
+class Sketch(Record, dict=True):
     """A mechanism to be drawn: its joints (mm), its driver, and the links that are emphasized.
 
     The other links may be drawn in gray, without their numbers and letters.

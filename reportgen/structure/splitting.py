@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property
+
+from reportgen.base.records import Record
 
 FRAME = 0
 LINK_UNKNOWNS, PAIR_EQUATIONS, POINT_UNKNOWNS = 3, 2, 2
@@ -19,8 +20,7 @@ Unknown = tuple[str, int]
 """A link, or the point of a multiple joint, whose coordinates are unknown: `link` or `point` with its number."""
 
 
-@dataclass(frozen=True)
-class ChainJoint:
+class ChainJoint(Record):
     """Two links in a pair, or several links on one pin, which are one lower pair fewer than links."""
 
     links: tuple[int, ...]
@@ -32,8 +32,7 @@ class ChainJoint:
         return len(self.links) - 1
 
 
-@dataclass(frozen=True)
-class KinematicChain:
+class KinematicChain(Record, dict=True):
     """The joints of a mechanism; link 0 is the frame.  A higher pair joins exactly two links."""
 
     joints: tuple[ChainJoint, ...]
@@ -98,8 +97,7 @@ class KinematicChain:
         return KinematicChain(tuple(joints)), added
 
 
-@dataclass(frozen=True)
-class AssurGroup:
+class AssurGroup(Record, dict=True):
     """An Assur group: its links, the joints of its own, and the number of pairs that join it to earlier links."""
 
     links: tuple[int, ...]
@@ -149,8 +147,7 @@ class AssurGroup:
         return min((distances[link] for link in joint.links[1:] if link in distances), default=0)
 
 
-@dataclass(frozen=True)
-class Splitting:
+class Splitting(Record):
     """The groups of a mechanism with a driver, in the order of assembly."""
 
     driver: int
@@ -269,8 +266,7 @@ def _equations(chain: KinematicChain, driver: int | None) -> list[Equation]:
     return equations
 
 
-@dataclass(frozen=True)
-class Matching:
+class Matching(Record):
     """Equations matched to unknowns, each node with as many as it has unknown coordinates."""
 
     equations: Sequence[Equation]

@@ -5,11 +5,11 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
+from reportgen.base.records import Record
 from reportgen.base.units import MM
 from reportgen.catalogue.extreme_positions import BEYOND, PivotPlace
 from reportgen.drawing import Arc, Circle, Content, Diagram, Item, Line, Pen, PlottedCurve, Scene, style
@@ -43,8 +43,7 @@ AREAS = (90.0, 45.0), (144.0, 64.0)
 """Areas of the chart on a drawing sheet (mm), the smallest first."""
 
 
-@dataclass(frozen=True)
-class ExtremeConstruction:
+class ExtremeConstruction(Record, dict=True):
     """The points of a solution (m), from the printed values: D, or the middle of the stroke, in the origin."""
 
     case: SolvedSynthesis

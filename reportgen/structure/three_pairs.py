@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from reportgen.base.arrays import Floats
+from reportgen.base.records import Record
 
 SINGULAR = 1e-9
 """Below this share of the largest product, the equations of two factors are dependent."""
@@ -19,8 +19,7 @@ SAMPLES = 721
 """Crank angles at which the branch is followed: steps of less than half a degree of a full turn."""
 
 
-@dataclass(frozen=True)
-class ThreePairs:
+class ThreePairs(Record, dict=True):
     """Three pairs of angles from the frame line AD: `driver` φ and `follower` ψ (rad), with the length of the frame."""
 
     driver: Sequence[float]
