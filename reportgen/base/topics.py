@@ -1,8 +1,8 @@
 """Registry of topics: optional subjects of a machine, such as friction or a flywheel.
 
 A topic is a folder of the package with a module `topic`; the folder has the name of its section's key in the file. A
-layer that topics can extend declares a frozen dataclass of typed functions and one `HookModule` for it. A topic that
-extends the layer has a module of that name with an object `HOOKS` of the dataclass. So a layer names no topic, no topic
+layer that topics can extend declares a record of typed functions and one `HookModule` for it. A topic that
+extends the layer has a module of that name with an object `HOOKS` of that class. So a layer names no topic, no topic
 names another, and a machine imports only the topics that its file uses.
 """
 
