@@ -68,7 +68,7 @@ def field_names(of: type) -> tuple[str, ...]:
 def replace(item: Item, **changes: Any) -> Item:
     """Return a record or a dataclass with other values of some fields, as `copy.replace` does from Python 3.13 on.
 
-    Raises `TypeError` for a name that is no field.
+    Raises `TypeError` for a name that is not a field.
     """
     if isinstance(item, Struct):
         return structs.replace(item, **changes)
