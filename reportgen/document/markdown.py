@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import secrets
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import accumulate
 from pathlib import Path
 from typing import cast, get_args
@@ -54,6 +54,10 @@ class Rendered(Record):
 
 _BLOCKS = get_args(tree.Block)
 _DEEPEST = 4
+PARSED = 128
+"""Number of parsed texts that are kept: a report has some 60, which differ in their values alone from one student to the
+next.
+"""
 MOST_NESTED = 12
 """Largest nesting of lists and other blocks; the parser itself reads no more than 20 levels."""
 
@@ -81,11 +85,19 @@ _Item = str | tree.Inline | _Piece
 
 def blocks(rendered: Rendered) -> tuple[tree.Block, ...]:
     """Return the blocks of a rendered template; raise `TemplateError` for unsupported syntax."""
-    tokens = _parser().parse(rendered.text)
-    if (line := _too_deep(tokens)) is not None:
-        file, number = rendered.lines[line]
+    root = _parsed(rendered.text)
+    if isinstance(root, int):
+        file, number = rendered.lines[root]
         raise TemplateError(f"{file}:{number}: {word('template_depth', of_file(Path(file)))}")
-    return tuple(_Reader(rendered).blocks(SyntaxTreeNode(tokens)))
+    return tuple(_Reader(rendered).blocks(root))
+
+
+@lru_cache(maxsize=PARSED)
+def _parsed(text: str) -> SyntaxTreeNode | int:
+    """Return the tree of a text, or the line where it is nested deeper than allowed."""
+    tokens = _parser().parse(text)
+    line = _too_deep(tokens)
+    return SyntaxTreeNode(tokens) if line is None else line
 
 
 def _too_deep(tokens: Sequence[Token]) -> int | None:

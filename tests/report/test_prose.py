@@ -271,6 +271,17 @@ def test_a_fault_in_a_called_function_is_placed_where_it_is_called(tmp_path: Pat
         template_rendering.render("other", {})
 
 
+def test_equal_words_have_their_own_values_and_places(tmp_path: Path) -> None:
+    first, second = (written(tmp_path, page="A {{ user }}.") for _ in range(2))
+    assert first.render("page", {"user": "b"}) == (says("A ", Text("b"), "."),)
+    assert second.render("page", {"user": "c"}) == (says("A ", Text("c"), "."),)
+    wrong = "{{ equation }} b"
+    prose = written(tmp_path, page=wrong, other=wrong)
+    for name, line in (("page", 2), ("other", 4)):
+        with pytest.raises(TemplateError, match=rf"page\.md:{line}: "):
+            prose.render(name, NAMES)
+
+
 def test_a_function_may_render_another_template(tmp_path: Path) -> None:
     """A rendering within a rendering keeps its values apart."""
     template_rendering = written(tmp_path, outer="{{ 'a' }}\n\n{{ inner() }}\n\n{{ 'c' }}", inner="{{ 'b' }}")
