@@ -97,6 +97,7 @@ def _scripts(base: Box, sub: Box, sup: Box, em: float, cut: float = 1.0) -> Box:
     return Box(base.width + cut * max(sub.width, sup.width), height, depth)
 
 
+@lru_cache(maxsize=4096)
 def _symbol(symbol: Symbol, em: float) -> Box:
     base = _letters(symbol.base, em)
     if symbol.over:
