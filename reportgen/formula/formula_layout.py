@@ -8,6 +8,7 @@ here, too: a fraction of a sum becomes 1/denominator times the sum, which breaks
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import lru_cache
 from itertools import repeat
 from typing import Literal
 
@@ -157,6 +158,7 @@ FIRST, EQUALS, LAST, BOUND = Sign("=", "first"), Sign("=", "relation"), Sign("="
 # --- a line ---------------------------------------------------------------------------------------
 
 
+@lru_cache(maxsize=4096)
 def laid(node: Expression, language: Language, slashed: bool = False, linear: bool = False) -> Part:
     """Return the layout of an expression in a line.
 
