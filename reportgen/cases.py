@@ -70,7 +70,7 @@ def open_case(path: Path | str, language: Language | None = None, whole: Path | 
 
 def starter_case(kind: str, language: Language = REFERENCE) -> Case:
     """Return the case of the starter file of a kind.  Raises `AssignmentError`, and `KeyError` for an unknown kind."""
-    assignment, faults = catalogue.assess(read_text(catalogue.sample(kind, language)), Path())
+    assignment, faults = catalogue.assess(read_text(catalogue.starter(kind, language)), Path())
     if assignment is None:
         raise as_error(faults, language)
     return opened(assignment)

@@ -398,15 +398,19 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 
 
 def sample(name: str, language: Language) -> str:
-    """Return the commented starter file of a kind; raises `KeyError`, or `TemplateError` if the kind has none."""
-    known = kind(name)
-    file = kind_words(language, name)
+    """Return the starter file of a kind with a remark on each key; see `starter`."""
+    known, words = kind(name), field_words(name, language)
+    return remarked(
+        starter(name, language), words, lambda path, value: _more(known, path.split("."), value, language)
+    )
+
+
+def starter(name: str, language: Language) -> str:
+    """Return the starter file of a kind; raises `KeyError`, or `TemplateError` if the kind has none."""
+    file = kind_words(language, kind(name).name)
     if (section := sections(file).get(SAMPLE)) is None:
         raise TemplateError(f"{file}:1: there is no section {SAMPLE}")
-    words, text = field_words(name, language), section.text
-    if is_of_atlas(name):
-        text = _atlas().starter(name, text, language)
-    return remarked(text, words, lambda path, value: _more(known, path.split("."), value, language))
+    return _atlas().starter(name, section.text, language) if is_of_atlas(name) else section.text
 
 
 def _more(known: Kind, path: Sequence[str], value: str, language: Language) -> str:

@@ -20,7 +20,7 @@ from reportgen.api.report_fonts import Engine
 from reportgen.base.output_formats import PRODUCTS
 from reportgen.base.template_folders import DEFAULT_LANGUAGE
 from reportgen.base.units import Language
-from reportgen.catalogue import sample
+from reportgen.catalogue import starter
 from reportgen.classes.worker_pool import SAMPLES
 
 FEW = 4
@@ -59,7 +59,7 @@ def prepare(kind: str, language: Language, engine: Engine, product: str) -> None
 
     with TemporaryDirectory(prefix="reportgen-") as folder, sources_alone():
         file = Path(folder) / "sample.yaml"
-        file.write_text(sample(kind, language), encoding="utf-8")
+        file.write_text(starter(kind, language), encoding="utf-8")
         if product:
             TYPESET[product].load()(file, engine, language)
         else:

@@ -64,7 +64,7 @@ def _item(asked: Mapping[str, Any]) -> Node:
     kind = str(asked["kind"])
     if kind not in part_kinds():
         raise ValueError(kind)
-    top = read_own(catalogue.sample(kind, REFERENCE)).top
+    top = read_own(catalogue.starter(kind, REFERENCE)).top
     assert isinstance(top, MappingNode), "a file to begin with is in order"
     return replace(top, entries=tuple(entry for entry in top.entries if entry[0].text in PART_KEYS))
 
