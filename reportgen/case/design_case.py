@@ -258,5 +258,5 @@ class DesignPage(ABC, Generic[Designed]):
         for section in cls.SECTIONS:
             if page.has(section) and (page.full or section not in cls.SHORT):
                 blocks += page.section(section, names)
-        ahead = case.cover, PageBreak(), contents(title, blocks, brief=not page.full)
+        ahead = case.cover, PageBreak(), contents(title, blocks, not page.full, case.assignment.language)
         return finished(case, (*ahead, *blocks), close=not page.full)

@@ -400,9 +400,7 @@ def schema(language: Language | None = None) -> dict[str, Any]:
 def sample(name: str, language: Language) -> str:
     """Return the starter file of a kind with a remark on each key; see `starter`."""
     known, words = kind(name), field_words(name, language)
-    return remarked(
-        starter(name, language), words, lambda path, value: _more(known, path.split("."), value, language)
-    )
+    return remarked(starter(name, language), words, lambda path, value: _more(known, path.split("."), value, language))
 
 
 def starter(name: str, language: Language) -> str:

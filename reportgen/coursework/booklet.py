@@ -114,7 +114,10 @@ def booklet(machine: Document, parts: Sequence[PartReport], words: Mapping[str, 
         if index == last:
             for part in parts:
                 blocks += () if part.lengths else chapter_of(part)
-    listed = (contents(one.title, blocks, one.brief) if isinstance(one, Contents) else one for one in blocks)
+    listed = (
+        contents(block.title, blocks, block.brief, machine.language) if isinstance(block, Contents) else block
+        for block in blocks
+    )
     return number(replace(machine, blocks=tuple(listed)))
 
 

@@ -168,12 +168,14 @@ class Cover(Record):
 class Contents(Record):
     """Table of contents with true page numbers: levels 1 to 3, or `brief`, levels 1 and 2.
 
-    It has separate pages unless `alone` is False: then the document continues below it.
+    It has separate pages unless `alone` is False: then the document continues below it. If it is `short`, it certainly
+    has room on one page.
     """
 
     title: str
     brief: bool = False
     alone: bool = True
+    short: bool = False
 
 
 class BlankLine(Record):

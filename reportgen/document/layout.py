@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import groupby
@@ -130,12 +131,28 @@ def _width(row: Expression) -> float:
 
 PAGE_ENTRIES, MANY_ENTRIES = 50, 30
 """Number of lines of a full page of contents, and the smallest number that does not look half empty."""
+SHORT = 45
+"""Number of lines of contents that certainly fit on a page."""
+ABOVE_CHAPTER = 1 / 3
+"""White above a chapter in the contents, in lines."""
+BOLD = 1.2
+"""Largest width of bold letters over that of others."""
+ENTRY_WIDTH = 120.0
+"""Width (mm) of a title in the contents, beside its number and page, that certainly is one line."""
 
 
-def contents(title: str, blocks: Iterable[Block], brief: bool) -> Contents:
+def contents(title: str, blocks: Iterable[Block], brief: bool, language: Language) -> Contents:
     """Return the table of contents of some blocks, without its own page if its last page would be half empty."""
-    entries = sum(isinstance(block, Section) and block.level <= (2 if brief else 3) for block in blocks)
-    return Contents(title, brief, alone=not brief and (entries - 1) % PAGE_ENTRIES >= MANY_ENTRIES)
+    listed = [block for block in blocks if isinstance(block, Section) and block.level <= (2 if brief else 3)]
+    widths = (BOLD * box(plain(section.title, language), TEXT_SIZE).width for section in listed)
+    lines = sum(math.ceil(width / ENTRY_WIDTH) for width in widths)
+    chapters = sum(section.level == 1 for section in listed)
+    return Contents(
+        title,
+        brief,
+        alone=not brief and (len(listed) - 1) % PAGE_ENTRIES >= MANY_ENTRIES,
+        short=lines + ABOVE_CHAPTER * chapters <= SHORT,
+    )
 
 
 # --- blocks ---------------------------------------------------------------------------------------

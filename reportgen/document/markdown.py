@@ -55,9 +55,7 @@ class Rendered(Record):
 _BLOCKS = get_args(tree.Block)
 _DEEPEST = 4
 PARSED = 128
-"""Number of parsed texts that are kept: a report has some 60, which differ in their values alone from one student to the
-next.
-"""
+"""Number of parsed texts that are kept: a report has some 60, and those of another student differ in values only."""
 MOST_NESTED = 12
 """Largest nesting of lists and other blocks; the parser itself reads no more than 20 levels."""
 

@@ -41,7 +41,8 @@ def compose(case: MachineAnalysis) -> Document:
     if "contents" in report.sections:
         brief = not report.parts("contents-page")
         every = chain.from_iterable(written.values())
-        written["contents"] = [PageBreak(), contents(words["document"]["contents"], every, brief)]
+        listed = contents(words["document"]["contents"], every, brief, case.assignment.language)
+        written["contents"] = [PageBreak(), listed]
     blocks = [case.cover, *chain.from_iterable(written[section] for section in report.sections)]
     return finished(case, plates_last(blocks, partial(_plate_is_last, report)), close=not report.parts("usual-type"))
 

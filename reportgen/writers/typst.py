@@ -233,8 +233,9 @@ class _Blocks:
                 lines = (_array(map(literal, part)) for part in (institution, title, subtitle))
                 pairs = _array(f"({literal(label)},{literal(value)})" for label, value in fields)
                 return f"#cover({','.join(lines)},{pairs},{literal(foot)})"
-            case tree.Contents(title, brief, alone):
+            case tree.Contents(title, brief, alone, short):
                 look = (",brief:true" if brief else "") + ("" if alone else ",alone:false")
+                look += ",short:true" if short and self.letter == layout.OWN_LETTER else ""
                 return f"#contents({literal(title)}{look})"
             case tree.BlankLine(label):
                 return f"#blank({literal(label)})"

@@ -132,7 +132,7 @@ def test_its_contents_and_its_look() -> None:
 @pytest.mark.parametrize(("entries", "alone"), [(26, False), (38, True), (50, True), (53, False), (73, False)])
 def test_contents_leave_no_page_half_white(entries: int, alone: bool) -> None:
     """About fifty lines fill a page; where few are left for the last one, what follows goes on below them."""
-    assert contents("", [Section(1, (Text("–"),))] * entries, brief=False).alone == alone
+    assert contents("", [Section(1, (Text("–"),))] * entries, False, "vi").alone == alone
 
 
 # --- how long it is -------------------------------------------------------------------------------
