@@ -285,7 +285,11 @@ def _own(out: Path, lock: ExitStack) -> Path:
 
 def sweep(out: Path) -> None:
     """Remove the folders of runs that have ended; without locks this is unknown, and they stay."""
-    for folder in out.glob(f"{PREFIX}*"):
+    folders: list[Path] = []
+    # Another run may remove `out`, if it is empty, while it is read.
+    with suppress(FileNotFoundError):
+        folders += out.glob(f"{PREFIX}*")
+    for folder in folders:
         with suppress(OSError), held(folder) as alone:
             if alone:
                 shutil.rmtree(folder, ignore_errors=True)

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -66,6 +67,20 @@ def test_what_a_killed_run_left_is_swept_and_what_another_uses_is_not(tmp_path: 
     with scratch(tmp_path):
         assert not folders[1].exists()
     assert list(tmp_path.glob(f"{PREFIX}*")) == []
+
+
+def test_a_sweep_ends_where_another_run_removes_the_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    out, scandir = tmp_path / "out", os.scandir
+    out.mkdir()
+
+    def removed(path: Path) -> Any:
+        if Path(path) == out:
+            out.rmdir()
+        return scandir(path)
+
+    monkeypatch.setattr(os, "scandir", removed)
+    sweep(out)
+    assert not out.exists()
 
 
 SWEEP = """
