@@ -41,7 +41,7 @@ WIDE = "Heading of a section about as wide as a line of the"
 
 @pytest.mark.parametrize("every", [1, 5, 50])
 def test_short_contents_have_room_on_a_page(every: int) -> None:
-    """Also if each title fills its line, and if all, a fifth or one of them are chapters, whose lines are apart."""
+    """Each title fills its line; all, a fifth or one of them are chapters, which have white above them."""
     levels = [1 if k % every == 0 else 3 for k in range(60)]
     sections = [Section(level, (Text(WIDE),), number="10.10.10") for level in levels]
     count = max(n for n in range(60) if contents("Contents", sections[:n], False, "en").short)
@@ -50,7 +50,7 @@ def test_short_contents_have_room_on_a_page(every: int) -> None:
     assert ". . ." in pages[0].get_text(clip=body_of(pages[0]))
     assert ". . ." not in pages[1].get_text(clip=body_of(pages[1]))
     assert pages[0].get_text(clip=body_of(pages[0])).count("Heading") == count
-    # A line more each than fits is told apart.
+    # Titles of two lines count twice.
     assert not contents("Contents", [Section(1, (Text(f"{WIDE} {WIDE}"),))] * 30, False, "en").short
 
 
